@@ -1,0 +1,2 @@
+//! An episode as a state machine.
+#![deny(missing_docs)]

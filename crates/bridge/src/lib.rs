@@ -1,0 +1,2 @@
+//! A world in a child process.
+#![deny(missing_docs)]

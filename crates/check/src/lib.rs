@@ -1,0 +1,2 @@
+//! Replays a plan by the plainest semantics.
+#![deny(missing_docs)]

@@ -1,0 +1,2 @@
+//! Algorithm 2.
+#![deny(missing_docs)]

@@ -1,0 +1,2 @@
+//! The kitchen simulator.
+#![deny(missing_docs)]

@@ -1,0 +1,2 @@
+//! Algorithm 1.
+#![deny(missing_docs)]

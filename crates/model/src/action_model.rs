@@ -1,0 +1,122 @@
+//! The learned model: types, predicates and actions, with the evidence they rest on.
+
+use std::collections::BTreeMap;
+
+use crate::{
+    ActionSchema, Evidence, Hierarchy, NameCollision, ParseConfig, PddlNames, Provenance, Replacement, Symbol, TypeId,
+};
+
+/// A symbolic action model (paper: 𝒜 with 𝓗).
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct ActionModel {
+    /// The type hierarchy.
+    pub hierarchy: Hierarchy,
+    /// Every predicate that was seen, with its number of arguments.
+    pub predicates: BTreeMap<Symbol, usize>,
+    /// How snapshots are read.
+    pub parse: ParseConfig,
+    /// The type of whoever acts, if there is one: it is not blamed when a step fails.
+    pub actor: Option<TypeId>,
+    /// The actions, with unique names, sorted by name.
+    pub actions: Vec<ActionSchema>,
+    /// What they rest on.
+    pub evidence: Evidence,
+}
+
+/// The PDDL names of everything that a model names.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ModelPddlNames {
+    /// Of its types.
+    pub types: PddlNames,
+    /// Of its predicates.
+    pub predicates: PddlNames,
+    /// Of its actions.
+    pub actions: PddlNames,
+}
+
+impl ActionModel {
+    /// The action of this name.
+    pub fn action(&self, name: &str) -> Option<&ActionSchema> {
+        self.actions.iter().find(|action| action.name == *name)
+    }
+
+    /// Whether an object of this type is an actor.
+    pub fn is_actor(&self, ty: TypeId) -> bool {
+        self.actor.is_some_and(|actor| self.hierarchy.is_a(ty, actor))
+    }
+
+    /// The number of observations behind an action, imagined ones counting those of the action they raise.
+    pub fn observations(&self, action: &ActionSchema) -> u64 {
+        if let Some((_, _, observations)) = action.provenance.imagined() {
+            return observations;
+        }
+        let sources = action.provenance.sources().iter();
+        sources.filter_map(|s| self.evidence.clusters.get(&s.cluster)).map(|cluster| cluster.count).sum()
+    }
+
+    /// The reversible mapping of its names to PDDL's.
+    ///
+    /// # Errors
+    /// [`NameCollision`] if two names differ only in what PDDL does not tell apart.
+    pub fn pddl_names(&self) -> Result<ModelPddlNames, NameCollision> {
+        Ok(ModelPddlNames {
+            types: PddlNames::fold("type", self.hierarchy.types().map(|t| self.hierarchy.name(t)))?,
+            predicates: PddlNames::fold("predicate", self.predicates.keys())?,
+            actions: PddlNames::fold("action", self.actions.iter().map(|a| &a.name))?,
+        })
+    }
+
+    /// The type that fills argument 0 of every action and no other parameter: the default actor.
+    pub fn default_actor(&self) -> Option<TypeId> {
+        let h = &self.hierarchy;
+        let first = |action: &ActionSchema| match action.call.args.first()? {
+            crate::Term::Param(index) => Some(*index),
+            crate::Term::Const(_) => None,
+        };
+        let mut actor: Option<TypeId> = None;
+        for action in self.actions.iter().filter(|a| a.provenance.imagined().is_none()) {
+            let ty = action.parameters[first(action)? as usize].ty;
+            actor = Some(actor.map_or(ty, |known| h.lca(known, ty)));
+        }
+        let actor = actor?;
+        let alone = self.actions.iter().all(|action| {
+            let index = first(action).map(|i| i as usize);
+            action.parameters.iter().enumerate().all(|(i, p)| Some(i) == index || h.disjoint(p.ty, actor))
+        });
+        (alone && actor != h.root()).then_some(actor)
+    }
+}
+
+/// The readable name of an action: its call's name and its parameters' types, without the actor's.
+/// Names that come out equal are told apart by whoever collects them.
+pub fn schema_name<'a>(call: &Symbol, types: impl IntoIterator<Item = (&'a Symbol, bool)>) -> String {
+    let mut name = call.as_str().to_owned();
+    for (ty, is_actor) in types {
+        if !is_actor {
+            name.push('-');
+            name.push_str(ty.as_str());
+        }
+    }
+    name
+}
+
+/// `cuttingtool for cutboard, fruit for carrot`: what was put in place of what, each pair once.
+pub fn describe_replacements(replaced: &[Replacement], hierarchy: &Hierarchy) -> String {
+    let mut pairs: Vec<String> =
+        replaced.iter().map(|r| format!("{} for {}", hierarchy.name(r.to), hierarchy.name(r.from))).collect();
+    pairs.dedup();
+    pairs.join(", ")
+}
+
+impl Provenance {
+    /// A word for the kind of provenance.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Given => "given",
+            Self::Demonstrated(_) => "individual",
+            Self::Generalized(_) => "generalized",
+            Self::Imagined { .. } => "imagined",
+            Self::Substituted { .. } => "substituted",
+        }
+    }
+}

@@ -1,0 +1,290 @@
+//! What was observed, folded up: the only thing that learning sees.
+//!
+//! Evidence is keyed by names and canonical labels. Adding transitions in any order, in any split, and merging the
+//! parts gives the same value, and its size is bounded by the number of different lifted effects and pre-states,
+//! not by the number of transitions.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use serde::{Deserialize, Serialize};
+
+use crate::{LiftedAtom, Symbol};
+
+/// Different pre-states that one cluster keeps apart; beyond it only how often each atom held.
+pub const PRE_STATE_BOUND: usize = 256;
+/// Witnesses kept of each cluster: the smallest by file and step.
+pub const WITNESS_BOUND: usize = 3;
+
+/// A place in a trace where something was observed.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Witness {
+    /// The trace's file name.
+    pub file: Symbol,
+    /// The transition's number in it, from 1.
+    pub step: u64,
+}
+
+/// The lifted pre-states of the transitions of one cluster, with multiplicity.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum PreStates {
+    /// Each different pre-state and how often it was seen; at most [`PRE_STATE_BOUND`].
+    Exact(
+        #[serde(with = "exact_as_list")]
+        #[cfg_attr(feature = "schema", schemars(with = "Vec<CountedState>"))]
+        BTreeMap<BTreeSet<LiftedAtom>, u64>,
+    ),
+    /// How many were seen, and in how many of them each atom held.
+    Counted {
+        /// The number of pre-states.
+        total: u64,
+        /// In how many of them each atom held.
+        atoms: BTreeMap<LiftedAtom, u64>,
+    },
+}
+
+impl Default for PreStates {
+    fn default() -> Self {
+        Self::Exact(BTreeMap::new())
+    }
+}
+
+impl PreStates {
+    /// Adds one pre-state.
+    pub fn add(&mut self, state: BTreeSet<LiftedAtom>) {
+        match self {
+            Self::Exact(states) => *states.entry(state).or_default() += 1,
+            Self::Counted { total, atoms } => {
+                *total += 1;
+                for atom in state {
+                    *atoms.entry(atom).or_default() += 1;
+                }
+            }
+        }
+        self.bound();
+    }
+
+    /// Adds all pre-states of another.
+    pub fn merge(&mut self, other: &Self) {
+        match (&mut *self, other) {
+            (Self::Exact(states), Self::Exact(others)) => {
+                for (state, count) in others {
+                    *states.entry(state.clone()).or_default() += count;
+                }
+            }
+            _ => {
+                let (mut total, mut atoms) = self.counts();
+                let (other_total, other_atoms) = other.counts();
+                total += other_total;
+                for (atom, count) in other_atoms {
+                    *atoms.entry(atom).or_default() += count;
+                }
+                *self = Self::Counted { total, atoms };
+            }
+        }
+        self.bound();
+    }
+
+    fn bound(&mut self) {
+        if matches!(self, Self::Exact(states) if states.len() > PRE_STATE_BOUND) {
+            let (total, atoms) = self.counts();
+            *self = Self::Counted { total, atoms };
+        }
+    }
+
+    /// How many were seen, and in how many of them each atom held.
+    pub fn counts(&self) -> (u64, BTreeMap<LiftedAtom, u64>) {
+        match self {
+            Self::Counted { total, atoms } => (*total, atoms.clone()),
+            Self::Exact(states) => {
+                let mut atoms = BTreeMap::new();
+                for (state, count) in states {
+                    for atom in state {
+                        *atoms.entry(atom.clone()).or_default() += count;
+                    }
+                }
+                (states.values().sum(), atoms)
+            }
+        }
+    }
+
+    /// The atoms that held in every pre-state.
+    pub fn always(&self) -> BTreeSet<LiftedAtom> {
+        let (total, atoms) = self.counts();
+        atoms.into_iter().filter(|(_, count)| *count == total).map(|(atom, _)| atom).collect()
+    }
+
+    /// `(hits, total)`: in how many pre-states all of `atoms` held. Beyond the bound it is exact when an atom never or
+    /// always fails to hold, else the upper bound that the counts give.
+    pub fn containing(&self, atoms: &BTreeSet<LiftedAtom>) -> (u64, u64) {
+        match self {
+            Self::Exact(states) => (
+                states.iter().filter(|(state, _)| atoms.is_subset(state)).map(|(_, count)| count).sum(),
+                states.values().sum(),
+            ),
+            Self::Counted { total, atoms: counts } => {
+                (atoms.iter().map(|atom| counts.get(atom).copied().unwrap_or(0)).min().unwrap_or(*total), *total)
+            }
+        }
+    }
+}
+
+/// One pre-state as the file has it.
+#[derive(Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+struct CountedState {
+    count: u64,
+    atoms: BTreeSet<LiftedAtom>,
+}
+
+mod exact_as_list {
+    use serde::{Deserializer, Serializer};
+
+    use super::{BTreeMap, BTreeSet, CountedState, Deserialize, LiftedAtom};
+
+    pub(super) fn serialize<S: Serializer>(
+        states: &BTreeMap<BTreeSet<LiftedAtom>, u64>,
+        s: S,
+    ) -> Result<S::Ok, S::Error> {
+        s.collect_seq(states.iter().map(|(atoms, count)| CountedState { count: *count, atoms: atoms.clone() }))
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(
+        d: D,
+    ) -> Result<BTreeMap<BTreeSet<LiftedAtom>, u64>, D::Error> {
+        let mut states = BTreeMap::new();
+        for CountedState { count, atoms } in Vec::<CountedState>::deserialize(d)? {
+            *states.entry(atoms).or_default() += count;
+        }
+        Ok(states)
+    }
+}
+
+/// What tells clusters apart: the action and its lifted effect in canonical labelling.
+///
+/// The parameters are the different arguments of the call in their order, then the other entities of the effect in
+/// the labelling that makes the effect smallest.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct ClusterKey {
+    /// The action's name.
+    pub action: Symbol,
+    /// The type of each parameter.
+    pub types: Vec<Symbol>,
+    /// The call's arguments, as parameters.
+    pub call: Vec<u32>,
+    /// The lifted atoms added, sorted.
+    pub adds: Vec<LiftedAtom>,
+    /// The lifted atoms deleted, sorted.
+    pub deletes: Vec<LiftedAtom>,
+}
+
+impl ClusterKey {
+    /// Adds and deletes as signed atoms, adds first.
+    pub fn signed_effect(&self) -> Vec<(bool, LiftedAtom)> {
+        let adds = self.adds.iter().map(|a| (true, a.clone()));
+        adds.chain(self.deletes.iter().map(|a| (false, a.clone()))).collect()
+    }
+}
+
+/// The observations of one cluster.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Cluster {
+    /// The number of transitions.
+    pub count: u64,
+    /// Their lifted pre-states: the atoms over parameters alone.
+    pub states: PreStates,
+    /// The smallest places where it was seen, at most [`WITNESS_BOUND`].
+    pub witnesses: BTreeSet<Witness>,
+}
+
+impl Cluster {
+    /// Adds one transition.
+    pub fn add(&mut self, state: BTreeSet<LiftedAtom>, witness: Witness) {
+        self.count += 1;
+        self.states.add(state);
+        keep_smallest(&mut self.witnesses, [witness]);
+    }
+
+    fn merge(&mut self, other: &Self) {
+        self.count += other.count;
+        self.states.merge(&other.states);
+        keep_smallest(&mut self.witnesses, other.witnesses.iter().cloned());
+    }
+}
+
+fn keep_smallest(witnesses: &mut BTreeSet<Witness>, more: impl IntoIterator<Item = Witness>) {
+    witnesses.extend(more);
+    while witnesses.len() > WITNESS_BOUND {
+        witnesses.pop_last();
+    }
+}
+
+/// What tells negatives apart: an action that changed nothing, applied to entities of these types.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct NegativeKey {
+    /// The action's name.
+    pub action: Symbol,
+    /// The type of each parameter.
+    pub types: Vec<Symbol>,
+    /// The call's arguments, as parameters.
+    pub call: Vec<u32>,
+}
+
+/// Why a transition belongs to no cluster.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Unexplained {
+    /// Entities appeared or vanished.
+    ObjectsChanged,
+    /// More entities of the effect than can be told apart within bounds.
+    TooSymmetric,
+}
+
+/// Everything learned from, as a value that merges.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Evidence {
+    /// The number of transitions seen, of any kind.
+    pub transitions: u64,
+    /// Transitions that changed something, by action and lifted effect.
+    pub clusters: BTreeMap<ClusterKey, Cluster>,
+    /// Transitions that changed nothing.
+    pub negatives: BTreeMap<NegativeKey, Cluster>,
+    /// Transitions that nothing explains.
+    pub unexplained: BTreeMap<Unexplained, (u64, BTreeSet<Witness>)>,
+}
+
+impl Evidence {
+    /// Adds a transition that nothing explains.
+    pub fn add_unexplained(&mut self, reason: Unexplained, witness: Witness) {
+        let entry = self.unexplained.entry(reason).or_default();
+        entry.0 += 1;
+        keep_smallest(&mut entry.1, [witness]);
+    }
+
+    /// Adds everything that another holds.
+    pub fn merge(&mut self, other: &Self) {
+        self.transitions += other.transitions;
+        for (key, cluster) in &other.clusters {
+            self.clusters.entry(key.clone()).or_default().merge(cluster);
+        }
+        for (key, cluster) in &other.negatives {
+            self.negatives.entry(key.clone()).or_default().merge(cluster);
+        }
+        for (reason, (count, witnesses)) in &other.unexplained {
+            let entry = self.unexplained.entry(*reason).or_default();
+            entry.0 += count;
+            keep_smallest(&mut entry.1, witnesses.iter().cloned());
+        }
+    }
+
+    /// Transitions that changed nothing.
+    pub fn unchanged(&self) -> u64 {
+        self.negatives.values().map(|cluster| cluster.count).sum()
+    }
+}

@@ -1,0 +1,53 @@
+//! The vocabulary of typelift, shared by every other crate and depending on none of them.
+//!
+//! What is *observed* is a [`State`] (objects with types, and the ground atoms that hold) and, between two
+//! states, a [`GroundCall`]. What is *learned* is an [`ActionModel`]: a [`Hierarchy`] of types and a list of
+//! lifted [`ActionSchema`]s, each with the [`Evidence`] it rests on. What is *asked* is a [`Task`], what is
+//! *answered* a [`Plan`].
+//!
+//! Ground and lifted things are different types: [`GroundAtom`] is an [`Atom`] over [`Symbol`]s,
+//! [`LiftedAtom`] one over [`Term`]s. Everything symbolic is ordered by its name, never by an interning
+//! order, so that no result depends on the order in which names were met.
+#![deny(missing_docs)]
+
+mod action;
+mod action_model;
+mod action_model_file;
+mod atom;
+mod budget;
+mod evidence;
+mod hierarchy;
+mod parse_config;
+mod pddl_names;
+mod plan;
+mod state;
+mod strict;
+mod symbol;
+mod task;
+mod unify;
+
+pub use action::{
+    ActionSchema, Effect, GroundAction, GroundCall, InstantiateError, LiftedCall, Literal, Parameter, Provenance,
+    Replacement, Source,
+};
+pub use action_model::{ActionModel, ModelPddlNames, describe_replacements, schema_name};
+pub use action_model_file::{MODEL_FORMAT, ModelFileError};
+pub use atom::{Atom, AtomTextError, GroundAtom, LiftedAtom, Term, check_name};
+pub use budget::{Budget, Stop};
+pub use evidence::{
+    Cluster, ClusterKey, Evidence, NegativeKey, PRE_STATE_BOUND, PreStates, Unexplained, WITNESS_BOUND, Witness,
+};
+pub use hierarchy::{Hierarchy, HierarchyError, ROOT, TypeId};
+pub use parse_config::ParseConfig;
+pub use pddl_names::{NameCollision, PddlNames};
+pub use plan::{Imagined, Plan, Step};
+pub use state::State;
+pub use strict::strict;
+pub use symbol::{Symbol, SymbolPool};
+pub use task::Task;
+pub use unify::{effect_bijections, is_bijection};
+
+/// The hash map of all crates: fast, and never iterated into a result.
+pub type HashMap<K, V> = rustc_hash::FxHashMap<K, V>;
+/// The hash set of all crates: fast, and never iterated into a result.
+pub type HashSet<K> = rustc_hash::FxHashSet<K>;

@@ -1,0 +1,62 @@
+//! Plans.
+
+use crate::{GroundCall, Replacement, Symbol};
+
+/// What makes a step of a plan an imagined one.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Imagined {
+    /// The learned action that was raised.
+    pub from: Symbol,
+    /// The raised parameters.
+    pub replaced: Vec<Replacement>,
+    /// Observations behind the learned action.
+    pub observations: u64,
+}
+
+/// One ground action of a plan.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Step {
+    /// The action schema's name.
+    pub action: Symbol,
+    /// The objects put in place of its parameters, in order.
+    pub objects: Vec<Symbol>,
+    /// What the environment is told.
+    pub call: GroundCall,
+    /// The cost.
+    pub cost: u32,
+    /// Set if the step rests on an imagined action.
+    pub imagined: Option<Imagined>,
+}
+
+/// A sequence of ground actions.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Plan {
+    /// The steps, first to last.
+    pub steps: Vec<Step>,
+}
+
+impl Plan {
+    /// The sum of the steps' costs.
+    pub fn cost(&self) -> u64 {
+        self.steps.iter().map(|step| u64::from(step.cost)).sum()
+    }
+
+    /// The number of steps.
+    pub fn len(&self) -> usize {
+        self.steps.len()
+    }
+
+    /// Whether there is nothing to do.
+    pub fn is_empty(&self) -> bool {
+        self.steps.is_empty()
+    }
+
+    /// The number of different imagined actions that it rests on.
+    pub fn imagined_actions(&self) -> usize {
+        let mut names: Vec<&Symbol> =
+            self.steps.iter().filter(|step| step.imagined.is_some()).map(|step| &step.action).collect();
+        names.sort_unstable();
+        names.dedup();
+        names.len()
+    }
+}

@@ -1,0 +1,2 @@
+//! Grounding, reachability, landmarks and heuristic search.
+#![deny(missing_docs)]

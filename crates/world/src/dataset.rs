@@ -1,0 +1,86 @@
+//! Demonstrations as sequences of states and actions.
+
+use typelift_model::{GroundAtom, GroundCall, Hierarchy, ParseConfig, State, Symbol, Witness};
+
+/// One action of a trace.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TraceAction {
+    /// What the environment was told.
+    pub call: GroundCall,
+    /// Whether it says that it did it; the states decide what is believed.
+    pub executed: Option<bool>,
+    /// Why not, if it says so.
+    pub reason: Option<String>,
+    /// When, in seconds, if recorded.
+    pub time: Option<f64>,
+}
+
+/// A demonstration: states and the actions between them; there is one state more than there are actions.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Trace {
+    /// The file's name, without its folders.
+    pub file: Option<Symbol>,
+    /// What was done, in words.
+    pub task: String,
+    /// What held in the end, if it was said.
+    pub goal: Vec<GroundAtom>,
+    /// The states.
+    pub states: Vec<State>,
+    /// The actions.
+    pub actions: Vec<TraceAction>,
+}
+
+/// One observed step (paper: (s, a_d, s')).
+#[derive(Debug, Clone, Copy)]
+pub struct Transition<'a> {
+    /// The state before.
+    pub before: &'a State,
+    /// The action.
+    pub action: &'a TraceAction,
+    /// The state after.
+    pub after: &'a State,
+    /// The file's name, if there is one.
+    pub file: Option<&'a Symbol>,
+    /// Its number in the trace, from 1.
+    pub step: u64,
+}
+
+impl Transition<'_> {
+    /// The place where it was observed.
+    pub fn witness(&self) -> Witness {
+        Witness { file: self.file.cloned().unwrap_or_else(|| Symbol::new("-")), step: self.step }
+    }
+}
+
+impl Trace {
+    /// Its transitions, in order.
+    pub fn transitions(&self) -> impl Iterator<Item = Transition<'_>> {
+        self.states.windows(2).zip(&self.actions).zip(1..).map(|((states, action), step)| Transition {
+            before: &states[0],
+            action,
+            after: &states[1],
+            file: self.file.as_ref(),
+            step,
+        })
+    }
+}
+
+/// Demonstrations read against one hierarchy in one way (paper: 𝒟).
+#[derive(Debug, Clone, Default)]
+pub struct Dataset {
+    /// The types that the states refer to.
+    pub hierarchy: Hierarchy,
+    /// How snapshots were read.
+    pub parse: ParseConfig,
+    /// Every predicate met, with its number of arguments.
+    pub predicates: std::collections::BTreeMap<Symbol, usize>,
+    /// The demonstrations.
+    pub traces: Vec<Trace>,
+}
+
+impl Dataset {
+    /// All transitions of all traces.
+    pub fn transitions(&self) -> impl Iterator<Item = Transition<'_>> {
+        self.traces.iter().flat_map(Trace::transitions)
+    }
+}

@@ -1,0 +1,78 @@
+//! The environment, as whoever acts in it sees it.
+
+use thiserror::Error;
+use typelift_model::GroundCall;
+
+use crate::Scene;
+
+/// How an environment is to be set up.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Reset {
+    /// The seed of whatever it leaves to chance.
+    pub seed: u64,
+    /// What to set up, in the environment's own terms; `None` for its default.
+    pub scenario: Option<serde_json::Value>,
+}
+
+/// What came of an action.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Acted {
+    /// What is observed when the world has settled.
+    pub scene: Scene,
+    /// Whether the environment says that it did it. The scene decides what is believed.
+    pub executed: bool,
+    /// Why not, if it says so.
+    pub reason: Option<String>,
+}
+
+/// An environment that failed: not an action that did, but the environment itself.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{message}")]
+pub struct WorldError {
+    /// What happened, with what was sent and what came back where there was a conversation.
+    pub message: String,
+}
+
+impl WorldError {
+    /// An error with this message.
+    pub fn new(message: impl Into<String>) -> Self {
+        Self { message: message.into() }
+    }
+}
+
+/// An environment: a simulator, a robot, a replayed log.
+pub trait World: Send {
+    /// What it calls itself.
+    fn name(&self) -> String;
+
+    /// Whether it can be set back to an initial state.
+    fn can_reset(&self) -> bool {
+        true
+    }
+
+    /// Sets it to an initial state and observes it.
+    ///
+    /// # Errors
+    /// [`WorldError`] if the environment fails or cannot set this up.
+    fn reset(&mut self, reset: &Reset) -> Result<Scene, WorldError>;
+
+    /// Observes it.
+    ///
+    /// # Errors
+    /// [`WorldError`] if the environment fails.
+    fn observe(&mut self) -> Result<Scene, WorldError>;
+
+    /// Performs an action and observes what came of it, once the world has settled.
+    ///
+    /// # Errors
+    /// [`WorldError`] if the environment fails; an action that has no effect is not an error.
+    fn act(&mut self, call: &GroundCall) -> Result<Acted, WorldError>;
+
+    /// Ends it. Afterwards nothing is asked of it.
+    ///
+    /// # Errors
+    /// [`WorldError`] if it does not end as it should.
+    fn close(&mut self) -> Result<(), WorldError> {
+        Ok(())
+    }
+}

@@ -1,0 +1,353 @@
+//! Parse (paper: s = Parse(x)): from a snapshot to the set of atoms that hold.
+//!
+//! | observed of entity e                | atom                |
+//! |-------------------------------------|---------------------|
+//! | attribute `a` = word `V`            | `a_V(e)`            |
+//! | attribute `a` = true                | `a(e)`              |
+//! | relation `r` to `f`                 | `r_holds(e, f)`     |
+//! | relation `r` to at most one, to none| `r_None(e)`         |
+//! | false, numbers, vectors, empty list | none                |
+//!
+//! Parsing is a function of the snapshot, the hierarchy and the configuration. A [`Parser`] also remembers what each
+//! predicate name came from, and refuses a second source of one name.
+
+use std::collections::BTreeMap;
+
+use thiserror::Error;
+use typelift_model::{GroundAtom, Hierarchy, ParseConfig, State, Symbol, TypeId, check_name};
+
+use crate::{Entity, Relation, Scene, Snapshot, Value};
+
+/// What is wrong with a scene.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum ParseErrorKind {
+    /// A type that the hierarchy does not have.
+    #[error("unknown type `{ty}`")]
+    UnknownType {
+        /// The type's name.
+        ty: Symbol,
+        /// A declared type that differs only in case, if there is one.
+        similar: Option<Symbol>,
+    },
+    /// Two entities of one name.
+    #[error("there are two entities of this name")]
+    Duplicate,
+    /// A relation to, or an atom over, an entity that is not there.
+    #[error("{what} mentions `{target}`, which is not among the entities")]
+    UnknownEntity {
+        /// The relation or atom.
+        what: String,
+        /// The missing entity.
+        target: Symbol,
+    },
+    /// Two attributes or relations would give one predicate.
+    #[error("the predicate `{predicate}` has two sources: {first} and {second}")]
+    TwoSources {
+        /// The predicate.
+        predicate: Symbol,
+        /// The source met first.
+        first: String,
+        /// The other.
+        second: String,
+    },
+    /// A predicate with two numbers of arguments.
+    #[error("the predicate `{predicate}` is used with {first} and with {second} arguments")]
+    TwoArities {
+        /// The predicate.
+        predicate: Symbol,
+        /// The number met first.
+        first: usize,
+        /// The other.
+        second: usize,
+    },
+    /// A name that cannot stand in an atom.
+    #[error("{0}")]
+    Name(String),
+    /// An atom that is both true and unknown.
+    #[error("{0} is listed both as true and as unknown")]
+    TrueAndUnknown(GroundAtom),
+}
+
+/// Why a scene is not a state.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{}{kind}", .entity.as_ref().map(|e| format!("entity {e}: ")).unwrap_or_default())]
+pub struct ParseError {
+    /// The entity concerned, if it is about one.
+    pub entity: Option<Symbol>,
+    /// What is wrong.
+    pub kind: ParseErrorKind,
+}
+
+impl ParseError {
+    fn at(entity: &Symbol, kind: ParseErrorKind) -> Self {
+        Self { entity: Some(entity.clone()), kind }
+    }
+}
+
+/// What a predicate's name was made from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum SourceKind {
+    TrueAttribute,
+    WordAttribute,
+    Relation,
+    EmptyRelation,
+    Symbolic,
+}
+
+#[derive(Debug, Clone)]
+struct PredicateSource {
+    kind: SourceKind,
+    name: Symbol,
+    arity: usize,
+}
+
+impl PredicateSource {
+    fn describe(&self) -> String {
+        match self.kind {
+            SourceKind::TrueAttribute => format!("the true or false attribute `{}`", self.name),
+            SourceKind::WordAttribute => format!("a word of the attribute `{}`", self.name),
+            SourceKind::Relation => format!("the relation `{}`", self.name),
+            SourceKind::EmptyRelation => format!("the relation `{}` to nothing", self.name),
+            SourceKind::Symbolic => "an atom of a symbolic state".to_owned(),
+        }
+    }
+}
+
+/// Reads scenes as states of one hierarchy.
+#[derive(Debug, Clone)]
+pub struct Parser {
+    hierarchy: Hierarchy,
+    config: ParseConfig,
+    sources: BTreeMap<Symbol, PredicateSource>,
+}
+
+impl Parser {
+    /// A parser that has seen nothing yet.
+    pub fn new(hierarchy: Hierarchy, config: ParseConfig) -> Self {
+        Self { hierarchy, config, sources: BTreeMap::new() }
+    }
+
+    /// The hierarchy that its states refer to.
+    pub fn hierarchy(&self) -> &Hierarchy {
+        &self.hierarchy
+    }
+
+    /// What it was told.
+    pub fn config(&self) -> &ParseConfig {
+        &self.config
+    }
+
+    /// Every predicate met so far, with its number of arguments.
+    pub fn predicates(&self) -> BTreeMap<Symbol, usize> {
+        self.sources.iter().map(|(name, source)| (name.clone(), source.arity)).collect()
+    }
+
+    /// The state that a scene shows.
+    ///
+    /// # Errors
+    /// [`ParseError`] with the entity concerned.
+    pub fn parse(&mut self, scene: &Scene) -> Result<State, ParseError> {
+        match scene {
+            Scene::Snapshot(snapshot) => self.parse_snapshot(snapshot),
+            Scene::Symbolic { objects, atoms, unknown } => {
+                let mut state = State::default();
+                for (name, ty) in objects {
+                    self.add_object(&mut state, name, ty)?;
+                }
+                for atom in atoms.iter().chain(unknown) {
+                    if let Some(target) = atom.args.iter().find(|arg| !state.objects.contains_key(*arg)) {
+                        let kind = ParseErrorKind::UnknownEntity { what: atom.to_string(), target: target.clone() };
+                        return Err(ParseError { entity: None, kind });
+                    }
+                    self.note(None, SourceKind::Symbolic, &atom.predicate, &atom.predicate, atom.arity())?;
+                }
+                if let Some(both) = atoms.intersection(unknown).next() {
+                    return Err(ParseError { entity: None, kind: ParseErrorKind::TrueAndUnknown(both.clone()) });
+                }
+                state.atoms = atoms.clone();
+                state.unknown = unknown.clone();
+                Ok(state)
+            }
+        }
+    }
+
+    fn parse_snapshot(&mut self, snapshot: &Snapshot) -> Result<State, ParseError> {
+        let mut state = State::default();
+        for entity in &snapshot.entities {
+            self.add_object(&mut state, &entity.id, &entity.ty)?;
+        }
+        for entity in &snapshot.entities {
+            let ty = state.objects[&entity.id];
+            for (name, value) in &entity.attributes {
+                if !self.ignored(ty, name) {
+                    self.parse_attribute(&mut state, entity, name, value)?;
+                }
+            }
+            for (name, relation) in &entity.relations {
+                if !self.ignored(ty, name) {
+                    self.parse_relation(&mut state, entity, name, relation)?;
+                }
+            }
+        }
+        Ok(state)
+    }
+
+    fn add_object(&self, state: &mut State, name: &Symbol, ty: &Symbol) -> Result<(), ParseError> {
+        check_name(name.as_str()).map_err(|e| ParseError::at(name, ParseErrorKind::Name(e.to_string())))?;
+        let id = self.hierarchy.id(ty.as_str()).ok_or_else(|| {
+            let names = self.hierarchy.types().map(|t| self.hierarchy.name(t));
+            let similar = names.into_iter().find(|n| n.as_str().eq_ignore_ascii_case(ty.as_str())).cloned();
+            ParseError::at(name, ParseErrorKind::UnknownType { ty: ty.clone(), similar })
+        })?;
+        match state.objects.insert(name.clone(), id) {
+            Some(_) => Err(ParseError::at(name, ParseErrorKind::Duplicate)),
+            None => Ok(()),
+        }
+    }
+
+    fn ignored(&self, ty: TypeId, name: &Symbol) -> bool {
+        self.config.ignore.iter().any(|rule| match rule.as_str().split_once('.') {
+            None => rule == name,
+            Some((type_name, attribute)) => {
+                *name == attribute && self.hierarchy.id(type_name).is_some_and(|t| self.hierarchy.is_a(ty, t))
+            }
+        })
+    }
+
+    fn parse_attribute(
+        &mut self,
+        state: &mut State,
+        entity: &Entity,
+        name: &Symbol,
+        value: &Value,
+    ) -> Result<(), ParseError> {
+        let (kind, predicate) = match value {
+            Value::Bool(true) => (SourceKind::TrueAttribute, name.clone()),
+            Value::Text(word) => (SourceKind::WordAttribute, Symbol::from(format!("{name}_{word}"))),
+            Value::Bool(false) | Value::Number(_) | Value::Vector(_) => return Ok(()),
+        };
+        self.note(Some(entity), kind, name, &predicate, 1)?;
+        state.atoms.insert(GroundAtom { predicate, args: vec![entity.id.clone()] });
+        Ok(())
+    }
+
+    fn parse_relation(
+        &mut self,
+        state: &mut State,
+        entity: &Entity,
+        name: &Symbol,
+        relation: &Relation,
+    ) -> Result<(), ParseError> {
+        if *relation == Relation::One(None) {
+            let predicate = Symbol::from(format!("{name}_None"));
+            self.note(Some(entity), SourceKind::EmptyRelation, name, &predicate, 1)?;
+            state.atoms.insert(GroundAtom { predicate, args: vec![entity.id.clone()] });
+        }
+        for target in relation.targets() {
+            let predicate = Symbol::from(format!("{name}_holds"));
+            self.note(Some(entity), SourceKind::Relation, name, &predicate, 2)?;
+            if !state.objects.contains_key(target) {
+                let kind =
+                    ParseErrorKind::UnknownEntity { what: format!("the relation `{name}`"), target: target.clone() };
+                return Err(ParseError::at(&entity.id, kind));
+            }
+            state.atoms.insert(GroundAtom { predicate, args: vec![entity.id.clone(), target.clone()] });
+        }
+        Ok(())
+    }
+
+    /// Remembers where a predicate's name came from, and refuses a second source.
+    fn note(
+        &mut self,
+        entity: Option<&Entity>,
+        kind: SourceKind,
+        name: &Symbol,
+        predicate: &Symbol,
+        arity: usize,
+    ) -> Result<(), ParseError> {
+        let error = |kind| ParseError { entity: entity.map(|e| e.id.clone()), kind };
+        let Some(known) = self.sources.get(predicate) else {
+            check_name(predicate.as_str()).map_err(|e| error(ParseErrorKind::Name(e.to_string())))?;
+            self.sources.insert(predicate.clone(), PredicateSource { kind, name: name.clone(), arity });
+            return Ok(());
+        };
+        let symbolic = kind == SourceKind::Symbolic || known.kind == SourceKind::Symbolic;
+        if symbolic && known.arity != arity {
+            let (predicate, first) = (predicate.clone(), known.arity);
+            return Err(error(ParseErrorKind::TwoArities { predicate, first, second: arity }));
+        }
+        if !symbolic && (known.kind, &known.name) != (kind, name) {
+            let second = PredicateSource { kind, name: name.clone(), arity };
+            return Err(error(ParseErrorKind::TwoSources {
+                predicate: predicate.clone(),
+                first: known.describe(),
+                second: second.describe(),
+            }));
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parser() -> Parser {
+        let hierarchy = Hierarchy::from_edges([("agent", "object"), ("plate", "item"), ("leek", "item")]);
+        Parser::new(hierarchy.expect("a tree"), ParseConfig::default())
+    }
+
+    fn scene(json: &str) -> Scene {
+        serde_json::from_str(json).expect("a scene")
+    }
+
+    #[test]
+    fn each_row_of_the_table() {
+        let state = parser()
+            .parse(&scene(
+                r#"{"entities":[
+                {"id":"a","type":"agent","relations":{"holding":null}},
+                {"id":"p","type":"plate","attributes":{"full":false,"clean":true,"at":[1,2],"mass":0.3},
+                 "relations":{"content":["l"],"under":[]}},
+                {"id":"l","type":"leek","attributes":{"cut":"Fresh"},"relations":{"on":"p"}}]}"#,
+            ))
+            .expect("a state");
+        let atoms: Vec<String> = state.atoms.iter().map(ToString::to_string).collect();
+        assert_eq!(atoms, ["clean(p)", "content_holds(p,l)", "cut_Fresh(l)", "holding_None(a)", "on_holds(l,p)"]);
+    }
+
+    #[test]
+    fn ignoring_by_name_and_by_type() {
+        let json = r#"{"entities":[{"id":"p","type":"plate","attributes":{"clean":true}},
+                                   {"id":"l","type":"leek","attributes":{"clean":true}}]}"#;
+        for (rule, left) in [("clean", 0), ("plate.clean", 1), ("item.clean", 0), ("agent.clean", 2)] {
+            let mut parser = parser();
+            parser.config.ignore.insert(Symbol::new(rule));
+            assert_eq!(parser.parse(&scene(json)).expect("a state").atoms.len(), left, "{rule}");
+        }
+    }
+
+    #[test]
+    fn bad_scenes_are_refused_with_the_entity() {
+        let bad = [
+            (r#"[{"id":"x","type":"fork"}]"#, "entity x: unknown type `fork`"),
+            (r#"[{"id":"x","type":"leek"},{"id":"x","type":"leek"}]"#, "entity x: there are two entities of this name"),
+            (
+                r#"[{"id":"x","type":"plate","relations":{"content":["y"]}}]"#,
+                "entity x: the relation `content` mentions `y`, which is not among the entities",
+            ),
+            (
+                r#"[{"id":"x","type":"leek","attributes":{"cut":"done","cut_done":true}}]"#,
+                "entity x: the predicate `cut_done` has two sources: a word of the attribute `cut` and the true or false attribute `cut_done`",
+            ),
+            (
+                r#"[{"id":"x","type":"leek","attributes":{"ripe":"very much"}}]"#,
+                "entity x: `ripe_very much` cannot be a name: it holds white space",
+            ),
+        ];
+        for (entities, message) in bad {
+            let error = parser().parse(&scene(&format!(r#"{{"entities":{entities}}}"#))).expect_err(entities);
+            assert_eq!(error.to_string(), message);
+        }
+    }
+}
