@@ -1,2 +1,168 @@
-//! Algorithm 2.
+//! Algorithm 2: imagining generalized actions for goals that cannot be reached.
+//!
+//! Each step of the paper's pseudocode is a file:
+//!
+//! | step                                             | file              |
+//! |--------------------------------------------------|-------------------|
+//! | `GetUnreachableGoals`, the queue                 | `lib.rs`          |
+//! | `GetPotentialActions`                            | `potential.rs`    |
+//! | `CreateImaginedAction`                           | `create.rs`       |
+//! | when a proposal is given up                      | `guard.rs`        |
+//! | `GetUnreachablePreconds`                         | `preconditions.rs`|
+//! | `CreateSubstitutedAction`                        | `substitute.rs`   |
+//!
+//! Imagined actions rest on no observation of their own. They only ever widen what may be planned: the model's own
+//! actions stay as they are.
 #![deny(missing_docs)]
+
+mod create;
+mod guard;
+mod potential;
+mod preconditions;
+mod substitute;
+
+use std::collections::{BTreeSet, VecDeque};
+
+use typelift_model::{ActionModel, ActionSchema, Budget, GroundAtom, Symbol, Task, TypeId, schema_name};
+use typelift_plan::{Cut, GroundTask, Restrictions, TieOrder, ground};
+
+pub use guard::Guard;
+
+/// How actions are imagined.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Options {
+    /// Which proposals are given up.
+    pub guard: Guard,
+}
+
+/// What was imagined for a task.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Imagination {
+    /// The new actions, imagined ones first, each followed later by those that were made to follow it.
+    pub actions: Vec<ActionSchema>,
+    /// The atoms that could not be reached and were worked through, in order.
+    pub unreachable: Vec<GroundAtom>,
+    /// Proposals given up by the guard.
+    pub given_up: usize,
+}
+
+impl Imagination {
+    /// The model with the imagined actions.
+    pub fn added_to(&self, model: &ActionModel) -> ActionModel {
+        let mut model = model.clone();
+        model.actions.extend(self.actions.iter().cloned());
+        model.actions.sort_by(|a, b| a.name.cmp(&b.name));
+        model
+    }
+}
+
+/// What all steps need to know.
+struct Context<'a> {
+    model: &'a ActionModel,
+    task: &'a Task,
+    restrictions: &'a Restrictions,
+    ground: &'a GroundTask,
+}
+
+impl Context<'_> {
+    /// The objects that may take part in actions of this call name, and are not in `bound`, with their types.
+    fn available<'b>(
+        &'b self,
+        call: &'b Symbol,
+        bound: &'b BTreeSet<&Symbol>,
+    ) -> impl Iterator<Item = (&'b Symbol, TypeId)> {
+        let objects = self.task.init.objects.iter().map(|(name, ty)| (name, *ty));
+        objects.filter(move |(name, _)| !bound.contains(name) && self.restrictions.allows(name, call))
+    }
+}
+
+/// Algorithm 2: actions for the goal atoms that cannot be reached; none if all can.
+///
+/// Work goes through a queue of unreachable atoms, each once. The cost is that of one grounding, plus, for each atom,
+/// a look at every action.
+///
+/// # Errors
+/// [`Cut`] if the budget ends grounding.
+pub fn imagine(
+    model: &ActionModel,
+    task: &Task,
+    restrictions: &Restrictions,
+    options: &Options,
+    budget: &Budget,
+) -> Result<Imagination, Cut> {
+    let ground = ground(model, task, restrictions, TieOrder::default(), budget)?;
+    let context = Context { model, task, restrictions, ground: &ground };
+    let mut queue: VecDeque<GroundAtom> = ground.unreachable_goals().iter().cloned().collect();
+    let mut met: BTreeSet<GroundAtom> = queue.iter().cloned().collect();
+    let mut imagination = Imagination::default();
+    let mut imagined = Vec::new();
+    while let Some(atom) = queue.pop_front() {
+        for potential in potential::get_potential_actions(model, &atom) {
+            let Some(proposal) = create::create_imagined_action(&context, &potential) else { continue };
+            if guard::gives_up(options.guard, &context, &proposal) {
+                imagination.given_up += 1;
+                continue;
+            }
+            for atom in preconditions::get_unreachable_preconds(&context, &proposal) {
+                if met.insert(atom.clone()) {
+                    queue.push_back(atom);
+                }
+            }
+            if proposal.is_new() {
+                imagined.push(proposal.into_schema(&context, &atom));
+            }
+        }
+        imagination.unreachable.push(atom);
+    }
+    let mut names = Names::of(model);
+    let mut known: Vec<ActionSchema> = Vec::new();
+    for action in imagined {
+        add_if_new(action, model, &mut known, &mut names);
+    }
+    for index in 0..known.len() {
+        let action = known[index].clone();
+        for substituted in substitute::create_substituted_actions(model, &action) {
+            add_if_new(substituted, model, &mut known, &mut names);
+        }
+    }
+    imagination.actions = known;
+    Ok(imagination)
+}
+
+/// Names and keeps an action, unless one that does the same is there.
+fn add_if_new(mut action: ActionSchema, model: &ActionModel, known: &mut Vec<ActionSchema>, names: &mut Names) {
+    let same = |other: &ActionSchema| {
+        other.call == action.call
+            && other.parameters.iter().map(|p| p.ty).eq(action.parameters.iter().map(|p| p.ty))
+            && other.preconditions == action.preconditions
+            && other.effects == action.effects
+    };
+    if !model.actions.iter().chain(known.iter()).any(same) {
+        action.name = names.name(&action, model);
+        known.push(action);
+    }
+}
+
+/// The names in use.
+struct Names(BTreeSet<Symbol>);
+
+impl Names {
+    fn of(model: &ActionModel) -> Self {
+        Self(model.actions.iter().map(|action| action.name.clone()).collect())
+    }
+
+    /// The readable name of an action, numbered on ties.
+    fn name(&mut self, action: &ActionSchema, model: &ActionModel) -> Symbol {
+        let types = action.parameters.iter().map(|p| (model.hierarchy.name(p.ty), model.is_actor(p.ty)));
+        let base = schema_name(&action.call.name, types);
+        let mut name = Symbol::new(&base);
+        for number in 2.. {
+            if !self.0.contains(&name) {
+                break;
+            }
+            name = Symbol::from(format!("{base}-{number}"));
+        }
+        self.0.insert(name.clone());
+        name
+    }
+}

@@ -6,7 +6,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::{ClusterKey, GroundAtom, Hierarchy, LiftedAtom, State, Symbol, Term, TypeId};
+use crate::{ClusterKey, GroundAtom, Hierarchy, Imagined, LiftedAtom, State, Step, Symbol, Term, TypeId};
 
 /// A typed placeholder of an [`ActionSchema`].
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -296,6 +296,23 @@ impl ActionSchema {
         (sum, self.parameters.len().max(1) as u64)
     }
 
+    /// The step of a plan that this action is with these objects in place of its parameters.
+    ///
+    /// # Panics
+    /// If there are fewer objects than parameters.
+    pub fn step(&self, objects: Vec<Symbol>) -> Step {
+        let imagined = self.provenance.imagined().map(|(from, replaced, observations)| Imagined {
+            from: from.clone(),
+            replaced: replaced.to_vec(),
+            observations,
+        });
+        let call = GroundCall {
+            name: self.call.name.clone(),
+            args: self.call.args.iter().map(|term| term.object(&objects)).collect(),
+        };
+        Step { action: self.name.clone(), call, objects, cost: self.cost, imagined }
+    }
+
     /// Puts objects in place of the parameters. Conditional effects are resolved in `state`; preconditions are not
     /// checked.
     ///
@@ -334,10 +351,7 @@ impl ActionSchema {
                 });
             }
         }
-        let term = |term: &Term| match term {
-            Term::Param(index) => objects[*index as usize].clone(),
-            Term::Const(name) => name.clone(),
-        };
+        let term = |term: &Term| term.object(objects);
         let mut changes: BTreeMap<GroundAtom, bool> = BTreeMap::new();
         for effect in &self.effects {
             if effect.condition.iter().all(|l| state.holds(&l.atom.map(term)) == l.positive) {

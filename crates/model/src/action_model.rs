@@ -66,7 +66,8 @@ impl ActionModel {
         })
     }
 
-    /// The type that fills argument 0 of every action and no other parameter: the default actor.
+    /// The type that fills argument 0 of every action and no other parameter: the default actor. With calls of a
+    /// single name nothing tells who acts, and there is none.
     pub fn default_actor(&self) -> Option<TypeId> {
         let h = &self.hierarchy;
         let first = |action: &ActionSchema| match action.call.args.first()? {
@@ -79,6 +80,10 @@ impl ActionModel {
             actor = Some(actor.map_or(ty, |known| h.lca(known, ty)));
         }
         let actor = actor?;
+        let calls: std::collections::BTreeSet<&Symbol> = self.actions.iter().map(|a| &a.call.name).collect();
+        if calls.len() < 2 {
+            return None;
+        }
         let alone = self.actions.iter().all(|action| {
             let index = first(action).map(|i| i as usize);
             action.parameters.iter().enumerate().all(|(i, p)| Some(i) == index || h.disjoint(p.ty, actor))

@@ -153,6 +153,19 @@ impl LiftedAtom {
     }
 }
 
+impl Term {
+    /// The object it stands for when the parameters are these objects.
+    ///
+    /// # Panics
+    /// If it is a parameter beyond them.
+    pub fn object(&self, objects: &[Symbol]) -> Symbol {
+        match self {
+            Self::Param(index) => objects[*index as usize].clone(),
+            Self::Const(name) => name.clone(),
+        }
+    }
+}
+
 impl fmt::Display for Term {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -1,2 +1,34 @@
-//! The s-expression reader, PDDL types, domains and trajectories, with errors that point at the text.
+//! PDDL as text: the one s-expression reader, type hierarchies, declared objects, recorded trajectories, and the
+//! writer of domains. Whatever is refused is refused with its place, and the line can be [shown](PddlError::render).
+//!
+//! ```
+//! let text = "(:types apple banana - fruit\n        leek fruit - food)";
+//! let hierarchy = typelift_pddl::read_hierarchy(text)?;
+//! let id = |name| hierarchy.id(name).expect("declared");
+//! assert_eq!(hierarchy.lca(id("apple"), id("leek")), id("food"));
+//! # Ok::<(), typelift_pddl::PddlError>(())
+//! ```
+//!
+//! PDDL does not tell upper from lower case. The names of types keep their spelling, since snapshots name them; the
+//! names of objects, predicates and actions come out in lower case.
 #![deny(missing_docs)]
+
+mod definition;
+mod error;
+mod objects;
+mod position;
+mod sexpr;
+mod trajectory;
+mod typed_list;
+mod types;
+mod writer;
+
+pub use definition::{Definition, DefinitionKind};
+pub use error::{PddlError, Related};
+pub use objects::{Declarations, ObjectDeclaration, read_objects};
+pub use position::{Position, Span};
+pub use sexpr::{Children, Document, Sexpr};
+pub use trajectory::{Trajectory, TrajectoryAction, TrajectoryState, read_trajectory};
+pub use typed_list::{TypedName, read_typed_list};
+pub use types::{TypeEdge, hierarchy_from_types, locate_hierarchy_error, read_hierarchy, read_types};
+pub use writer::write_domain;

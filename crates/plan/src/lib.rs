@@ -1,2 +1,28 @@
-//! Grounding, reachability, landmarks and heuristic search.
+//! Planning as heuristic search: grounding, relaxed reachability, landmarks, A*, and why there is no plan.
+//!
+//! The data flows through the files in this order:
+//!
+//! ```text
+//! ActionModel, Task, Restrictions ─▶ [reach] ─▶ [ground] GroundTask ─▶ [landmark] sequences ─▶ [heuristic]
+//!                                                        └──────────▶ [successor] ─▶ [search] ─▶ Plan
+//! ```
+//!
+//! This crate has never heard of learning or imagination: it plans with whatever actions it is given.
 #![deny(missing_docs)]
+
+mod explain;
+mod ground;
+pub mod heuristic;
+mod landmark;
+mod planner;
+mod reach;
+mod restrict;
+mod search;
+mod successor;
+
+pub use explain::{Explanation, Misfit, Nearest, UnreachableGoal};
+pub use ground::{ConditionalEffect, Cut, FactId, GroundTask, Op, OpId, TieOrder, ground};
+pub use landmark::{LandmarkSequence, landmark_sequences};
+pub use planner::{Options, Planner};
+pub use restrict::{Ban, Exclusion, Restrictions};
+pub use search::{Outcome, Report};

@@ -3,13 +3,36 @@
 #![deny(missing_docs)]
 
 mod dataset;
+mod dataset_file;
 mod environment;
+mod file_error;
+mod hierarchy_file;
+mod json;
+mod line_reader;
+mod object_types;
 mod parse;
 mod protocol;
+mod similar;
 mod snapshot;
+mod task_file;
+mod text_file;
+mod trace_file;
+mod trace_line;
+mod trajectory_file;
 
 pub use dataset::{Dataset, Trace, TraceAction, Transition};
+pub use dataset_file::{read_any_trace, read_dataset};
 pub use environment::{Acted, Reset, World, WorldError};
+pub use file_error::FileError;
+pub use hierarchy_file::{TypesFile, read_hierarchy, read_types};
+pub use line_reader::LINE_LIMIT;
+pub use object_types::ObjectTypes;
 pub use parse::{ParseError, ParseErrorKind, Parser};
 pub use protocol::{Answer, PROTOCOL, Request, RequestBody};
+pub use similar::nearest;
 pub use snapshot::{Entity, Relation, Scene, Snapshot, Value};
+pub use task_file::{TASK_FORMAT, TaskError, TaskFile, check_goal, read_task, write_task};
+pub use text_file::{read_text, write_file};
+pub use trace_file::{TraceHeader, TraceItem, TraceReader, read_trace};
+pub use trace_line::{TRACE_FORMAT, TraceLine, write_trace};
+pub use trajectory_file::read_trajectory;

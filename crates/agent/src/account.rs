@@ -1,0 +1,76 @@
+//! The account of an episode: what was tried, what failed and was excluded and why, and how it ended.
+
+use typelift_model::{GroundCall, Plan, Symbol};
+use typelift_plan::{Exclusion, Explanation};
+
+use crate::monitor::StepResult;
+
+/// How an episode ended.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Ending {
+    /// The goal was seen to hold.
+    Solved,
+    /// There is nothing left to try.
+    NoPlan(Explanation),
+    /// The proposals allowed are used up.
+    ProposalLimit(u64),
+    /// The expansions allowed are used up.
+    GaveUp,
+    /// The time allowed is used up.
+    OutOfTime,
+    /// The bytes allowed are used up.
+    OutOfMemory,
+    /// Somebody stopped it.
+    Stopped,
+}
+
+/// A step that failed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Failure {
+    /// The proposal's number, from 1.
+    pub proposal: u64,
+    /// The step's number in it, from 1.
+    pub step: usize,
+    /// The action schema.
+    pub action: Symbol,
+    /// What the environment was told.
+    pub call: GroundCall,
+    /// What came of it.
+    pub result: StepResult,
+    /// The environment's or the person's reason, if given.
+    pub reason: Option<String>,
+    /// Whether it rests on an imagined action.
+    pub imagined: bool,
+    /// What was excluded therefore.
+    pub excluded: Vec<Exclusion>,
+}
+
+/// The account of an episode.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Account {
+    /// How it ended.
+    pub ending: Ending,
+    /// Plans proposed, the successful one included (paper: #p).
+    pub proposals: u64,
+    /// Actions executed, retries included.
+    pub actions: u64,
+    /// The plan that worked (paper: |p| is its length); for a goal that held already the empty one.
+    pub plan: Option<Plan>,
+    /// What failed, in order.
+    pub failures: Vec<Failure>,
+    /// Nodes expanded by all searches.
+    pub expansions: u64,
+    /// Ground actions of the largest search.
+    pub ground_actions: u64,
+    /// Whether exclusions of earlier tasks were lifted.
+    pub lifted: bool,
+    /// Whether actions were used although some of what they add held already.
+    pub relaxed: bool,
+}
+
+impl Account {
+    /// Whether the goal was seen to hold.
+    pub fn solved(&self) -> bool {
+        self.ending == Ending::Solved
+    }
+}

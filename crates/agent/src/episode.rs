@@ -1,0 +1,453 @@
+//! The episode: one task, from the first observation to an account.
+//!
+//! After a failed step, once its retries are used up, the ground action is banned, and the entities of the action
+//! that are neither actor nor in the goal are excluded: from every action if the world is set back (the paper's way),
+//! only from actions of the same name if the episode goes on from where it is. Then it imagines and plans again.
+
+use std::sync::Arc;
+
+use typelift_model::{
+    ActionModel, Budget, GroundAction, GroundAtom, GroundCall, Plan, Provenance, State, Stop, Symbol, Task,
+};
+use typelift_plan::{Ban, Cut, Exclusion, Outcome};
+
+use crate::account::{Account, Ending, Failure};
+use crate::event::{Event, Observer, PlanSummary};
+use crate::experience::Experience;
+use crate::monitor::{StepResult, compare};
+use crate::propose::{Proposal, ProposeError, propose};
+
+/// How an episode goes about its task.
+#[derive(Debug, Clone)]
+pub struct Options {
+    /// Imagine actions for goals that cannot be reached (Algorithm 2).
+    pub imagine: Option<typelift_imagine::Options>,
+    /// Use an action only where all of its effects would be changes.
+    pub strict: bool,
+    /// How plans are looked for.
+    pub plan: typelift_plan::Options,
+    /// Set the world back after a failure, and plan from the initial state.
+    pub restart: bool,
+    /// How often a failed step is tried again; by default once, and never with `restart`.
+    pub retries: Option<u32>,
+    /// Plans proposed at most.
+    pub max_proposals: u64,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            imagine: None,
+            strict: true,
+            plan: typelift_plan::Options::default(),
+            restart: false,
+            retries: None,
+            max_proposals: 12,
+        }
+    }
+}
+
+impl Options {
+    fn retries(&self) -> u32 {
+        self.retries.unwrap_or(u32::from(!self.restart))
+    }
+}
+
+/// What the driver is to do.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Command {
+    /// Set the world to its initial state; answer with an observation.
+    Reset,
+    /// Observe; answer with an observation.
+    Observe,
+    /// Have this plan approved or rejected, if anyone is to be asked.
+    Propose(Plan),
+    /// Execute this; answer with an observation, a refusal or a time-out.
+    Act(GroundCall),
+    /// It is over.
+    Done(Box<Account>),
+}
+
+/// What the driver reports.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Input {
+    /// The episode may begin.
+    Started,
+    /// What is observed, after a reset, an observation or an action that was executed.
+    Observation(State),
+    /// The plan may be executed.
+    Approve,
+    /// A step of the proposed plan, counted from 1, is not to be taken.
+    Reject {
+        /// The step.
+        step: usize,
+        /// Why.
+        reason: String,
+    },
+    /// Whoever executes declined the action; with what is observed now. The observation decides: if what was
+    /// expected happened all the same, the step succeeded.
+    Refused {
+        /// Why.
+        reason: String,
+        /// What is observed now.
+        state: State,
+    },
+    /// Whoever executes did not finish in time.
+    TimedOut,
+    /// End the episode.
+    Stop,
+}
+
+#[derive(Debug)]
+enum Phase {
+    New,
+    AwaitingState,
+    AwaitingApproval,
+    AwaitingResult,
+    /// The result of a step that timed out is about to be observed.
+    AwaitingLateState,
+    Over,
+}
+
+/// One task being solved.
+#[derive(Debug)]
+pub struct Episode {
+    model: Arc<ActionModel>,
+    goal: Vec<GroundAtom>,
+    options: Options,
+    budget: Budget,
+    experience: Experience,
+    inherited: Experience,
+    phase: Phase,
+    state: State,
+    /// The model of the current proposal, with what was imagined for it.
+    planned_with: ActionModel,
+    plan: Plan,
+    next_step: usize,
+    attempts: u32,
+    account: Account,
+}
+
+impl Episode {
+    /// An episode for this goal, with what earlier tasks of the run taught.
+    pub fn new(
+        model: Arc<ActionModel>,
+        goal: Vec<GroundAtom>,
+        options: Options,
+        experience: Experience,
+        budget: Budget,
+    ) -> Self {
+        Self {
+            planned_with: ActionModel::default(),
+            model,
+            goal,
+            options,
+            budget,
+            inherited: experience.clone(),
+            experience,
+            phase: Phase::New,
+            state: State::default(),
+            plan: Plan::default(),
+            next_step: 0,
+            attempts: 0,
+            account: Account {
+                ending: Ending::Stopped,
+                proposals: 0,
+                actions: 0,
+                plan: None,
+                failures: Vec::new(),
+                expansions: 0,
+                ground_actions: 0,
+                lifted: false,
+                relaxed: false,
+            },
+        }
+    }
+
+    /// What failed so far, in this task and the ones before it.
+    pub fn experience(&self) -> &Experience {
+        &self.experience
+    }
+
+    /// The model of the current proposal: imagined actions added, strict if asked for.
+    pub fn planned_with(&self) -> &ActionModel {
+        &self.planned_with
+    }
+
+    /// Takes one input. An input that does not fit the last command is answered by repeating that command's kind: an
+    /// observation where approval was asked for updates nothing.
+    ///
+    /// # Errors
+    /// [`ProposeError::Invalid`] if the planner errs.
+    pub fn step(&mut self, input: Input, observer: &mut dyn Observer) -> Result<Command, ProposeError> {
+        match (&self.phase, input) {
+            (_, Input::Stop) => Ok(self.end(Ending::Stopped, observer)),
+            (Phase::Over, _) => Ok(Command::Done(Box::new(self.account.clone()))),
+            (Phase::New, _) => {
+                self.phase = Phase::AwaitingState;
+                Ok(Command::Reset)
+            }
+            (Phase::AwaitingState, Input::Observation(state) | Input::Refused { state, .. }) => {
+                self.state = state;
+                self.propose(observer)
+            }
+            (Phase::AwaitingState, _) => Ok(Command::Observe),
+            (Phase::AwaitingApproval, Input::Approve) => self.advance(observer),
+            (Phase::AwaitingApproval, Input::Reject { step, reason }) => {
+                self.next_step = step.clamp(1, self.plan.len()) - 1;
+                self.fail(StepResult::Rejected, Some(reason), None, observer)
+            }
+            (Phase::AwaitingApproval, _) => Ok(Command::Propose(self.plan.clone())),
+            (Phase::AwaitingResult, Input::Observation(state)) => self.judge(state, None, None, observer),
+            (Phase::AwaitingResult, Input::Refused { reason, state }) => {
+                self.judge(state, Some(StepResult::Refused), Some(reason), observer)
+            }
+            (Phase::AwaitingResult, _) => {
+                self.phase = Phase::AwaitingLateState;
+                Ok(Command::Observe)
+            }
+            (Phase::AwaitingLateState, Input::Observation(state) | Input::Refused { state, .. }) => {
+                self.judge(state, Some(StepResult::TimedOut), None, observer)
+            }
+            (Phase::AwaitingLateState, _) => Ok(Command::Observe),
+        }
+    }
+
+    fn end(&mut self, ending: Ending, observer: &mut dyn Observer) -> Command {
+        self.phase = Phase::Over;
+        self.account.ending = ending;
+        observer.event(&Event::Ended { solved: self.account.solved() });
+        Command::Done(Box::new(self.account.clone()))
+    }
+
+    /// Plans from the current state.
+    fn propose(&mut self, observer: &mut dyn Observer) -> Result<Command, ProposeError> {
+        if self.state.satisfies(&self.goal) {
+            self.account.plan = Some(Plan::default());
+            return Ok(self.end(Ending::Solved, observer));
+        }
+        if self.account.proposals >= self.options.max_proposals {
+            return Ok(self.end(Ending::ProposalLimit(self.options.max_proposals), observer));
+        }
+        let proposal = match self.plan_with_last_resorts(observer) {
+            Ok(proposal) => proposal,
+            Err(ProposeError::Cut(cut)) => return Ok(self.end(cut_ending(cut), observer)),
+            Err(error) => return Err(error),
+        };
+        let ending = match &proposal.outcome {
+            Outcome::Solved(plan) => {
+                self.plan = plan.clone();
+                self.planned_with = proposal.model;
+                self.next_step = 0;
+                self.attempts = 0;
+                self.account.proposals += 1;
+                self.phase = Phase::AwaitingApproval;
+                let summary = PlanSummary::of(&self.plan, &self.model.hierarchy);
+                observer.event(&Event::Proposed { proposal: self.account.proposals, plan: summary });
+                return Ok(Command::Propose(self.plan.clone()));
+            }
+            Outcome::Unsolvable | Outcome::NoMorePlans => Ending::NoPlan(proposal.explain()),
+            Outcome::GaveUp => Ending::GaveUp,
+            Outcome::OutOfTime => Ending::OutOfTime,
+            Outcome::OutOfMemory => Ending::OutOfMemory,
+            Outcome::Cancelled => Ending::Stopped,
+        };
+        Ok(self.end(ending, observer))
+    }
+
+    /// Plans; where there is no plan, without the exclusions of earlier tasks; and where an episode that goes on from
+    /// where it is still finds none, without strictness.
+    fn plan_with_last_resorts(&mut self, observer: &mut dyn Observer) -> Result<Proposal, ProposeError> {
+        let none = |proposal: &Proposal| proposal.outcome == Outcome::Unsolvable;
+        let mut proposal = self.plan_once(&self.options.clone(), observer)?;
+        if none(&proposal) && self.inherited.exclusions().next().is_some() {
+            let mut lifted = self.experience.clone();
+            lifted.lift_exclusions_of(&self.inherited);
+            if lifted != self.experience {
+                self.experience = lifted;
+                self.account.lifted = true;
+                observer.event(&Event::Lifted);
+                proposal = self.plan_once(&self.options.clone(), observer)?;
+            }
+        }
+        if none(&proposal) && self.options.strict && !self.options.restart && !self.account.failures.is_empty() {
+            let plain = Options { strict: false, ..self.options.clone() };
+            let relaxed = self.plan_once(&plain, observer)?;
+            if !none(&relaxed) {
+                self.account.relaxed = true;
+                observer.event(&Event::Relaxed);
+                return Ok(relaxed);
+            }
+        }
+        Ok(proposal)
+    }
+
+    fn plan_once(&mut self, options: &Options, observer: &mut dyn Observer) -> Result<Proposal, ProposeError> {
+        observer.event(&Event::PlanningStarted { proposal: self.account.proposals + 1 });
+        let task = Task { init: self.state.clone(), goal: self.goal.clone() };
+        let planned = propose(&self.model, &task, &self.experience.restrictions(), options, &self.budget);
+        let report = planned.as_ref().map(Proposal::report).unwrap_or_default();
+        self.account.expansions += report.expansions;
+        self.account.ground_actions = self.account.ground_actions.max(report.ground_actions);
+        let imagined = planned.as_ref().map(|p| p.imagination.actions.iter().map(|a| a.name.clone()).collect());
+        observer.event(&Event::PlanningEnded {
+            expansions: report.expansions,
+            ground_actions: report.ground_actions,
+            imagined: imagined.unwrap_or_default(),
+            found: planned.as_ref().is_ok_and(|p| matches!(p.outcome, Outcome::Solved(_))),
+        });
+        planned
+    }
+
+    /// Goes on to the next step of the plan, or ends it.
+    fn advance(&mut self, observer: &mut dyn Observer) -> Result<Command, ProposeError> {
+        if self.next_step == self.plan.len() {
+            if self.state.satisfies(&self.goal) {
+                self.account.plan = Some(self.plan.clone());
+                return Ok(self.end(Ending::Solved, observer));
+            }
+            return self.again(observer);
+        }
+        if !self.options.restart
+            && let Some(missing) = self.missing_precondition()
+        {
+            observer.event(&Event::Drifted { step: self.next_step + 1, missing });
+            return self.propose(observer);
+        }
+        self.phase = Phase::AwaitingResult;
+        Ok(Command::Act(self.plan.steps[self.next_step].call.clone()))
+    }
+
+    fn missing_precondition(&self) -> Option<String> {
+        let Some(action) = self.expected() else { return Some("an object that is gone".to_owned()) };
+        let (atom, positive) = action.unmet(&self.state).next()?;
+        Some(format!("{}{atom}", if *positive { "" } else { "not " }))
+    }
+
+    /// The next step as it is expected in the current state.
+    fn expected(&self) -> Option<GroundAction> {
+        let step = self.plan.steps.get(self.next_step)?;
+        let schema = self.planned_with.action(step.action.as_str())?;
+        schema.instantiate(&step.objects, &self.state, &self.model.hierarchy).ok()
+    }
+
+    /// Compares what happened with what was expected. `excuse` is what the driver reported instead of success.
+    fn judge(
+        &mut self,
+        after: State,
+        excuse: Option<StepResult>,
+        reason: Option<String>,
+        observer: &mut dyn Observer,
+    ) -> Result<Command, ProposeError> {
+        self.account.actions += 1;
+        let step = &self.plan.steps[self.next_step];
+        let given = self.planned_with.action(step.action.as_str()).is_some_and(|a| a.provenance == Provenance::Given);
+        let seen = self.expected().map_or(StepResult::Otherwise, |e| compare(&e, &self.state, &after, !given));
+        let result = match excuse {
+            Some(excuse) if seen == StepResult::NothingChanged || excuse == StepResult::TimedOut => match seen {
+                StepResult::AsExpected => seen,
+                _ => excuse,
+            },
+            _ => seen,
+        };
+        if result == StepResult::AsExpected {
+            self.report_step(result, reason, &after, observer);
+            self.state = after;
+            self.next_step += 1;
+            self.attempts = 0;
+            return self.advance(observer);
+        }
+        self.fail(result, reason, Some(after), observer)
+    }
+
+    fn report_step(&self, result: StepResult, reason: Option<String>, after: &State, observer: &mut dyn Observer) {
+        let step = &self.plan.steps[self.next_step];
+        observer.event(&Event::Stepped {
+            proposal: self.account.proposals,
+            step: self.next_step + 1,
+            call: step.call.clone(),
+            imagined: step.imagined.is_some(),
+            result,
+            reason,
+            added: self.state.added(after).cloned().collect(),
+            deleted: self.state.deleted(after).cloned().collect(),
+        });
+    }
+
+    /// A step failed, or was rejected: tries it again, or learns from it and plans anew.
+    fn fail(
+        &mut self,
+        result: StepResult,
+        reason: Option<String>,
+        after: Option<State>,
+        observer: &mut dyn Observer,
+    ) -> Result<Command, ProposeError> {
+        let expected = self.expected();
+        let before = self.state.clone();
+        if let Some(after) = &after {
+            self.report_step(result, reason.clone(), after, observer);
+            self.state = after.clone();
+            if self.attempts < self.options.retries() && self.missing_precondition().is_none() {
+                self.attempts += 1;
+                let call = self.plan.steps[self.next_step].call.clone();
+                observer.event(&Event::Retried { call: call.clone() });
+                self.phase = Phase::AwaitingResult;
+                return Ok(Command::Act(call));
+            }
+        } else {
+            self.report_step(result, reason.clone(), &before, observer);
+        }
+        let step = self.plan.steps[self.next_step].clone();
+        let why = format!("{} {}", step.call, reason.as_deref().unwrap_or(result.phrase()));
+        let excluded = self.blamed(&step.objects);
+        for exclusion in &excluded {
+            let (object, call) = (exclusion.object.clone(), exclusion.call.clone());
+            self.experience.exclude(exclusion.clone(), &why);
+            observer.event(&Event::Excluded { object, call, reason: why.clone() });
+        }
+        // A step that was rejected may lie ahead, where its effect cannot be computed from the present state:
+        // instantiation needs only the objects.
+        if let Some(action) = expected {
+            self.experience.ban(Ban { call: action.call, adds: action.adds, deletes: action.deletes }, &why);
+        }
+        self.account.failures.push(Failure {
+            proposal: self.account.proposals,
+            step: self.next_step + 1,
+            action: step.action,
+            call: step.call,
+            result,
+            reason,
+            imagined: step.imagined.is_some(),
+            excluded,
+        });
+        self.again(observer)
+    }
+
+    /// The entities of a failed step that are neither actor nor in the goal.
+    fn blamed(&self, objects: &[Symbol]) -> Vec<Exclusion> {
+        let call = (!self.options.restart).then(|| self.plan.steps[self.next_step].call.name.clone());
+        let is_actor = |object: &Symbol| self.state.objects.get(object).is_some_and(|ty| self.model.is_actor(*ty));
+        let in_goal = |object: &Symbol| self.goal.iter().any(|atom| atom.args.contains(object));
+        let mut objects: Vec<&Symbol> = objects.iter().filter(|o| !is_actor(o) && !in_goal(o)).collect();
+        objects.sort_unstable();
+        objects.dedup();
+        objects.into_iter().map(|object| Exclusion { object: object.clone(), call: call.clone() }).collect()
+    }
+
+    /// Plans anew: from the initial state if the world is set back, else from where it is.
+    fn again(&mut self, observer: &mut dyn Observer) -> Result<Command, ProposeError> {
+        if self.options.restart && self.account.actions > 0 {
+            self.phase = Phase::AwaitingState;
+            return Ok(Command::Reset);
+        }
+        self.propose(observer)
+    }
+}
+
+fn cut_ending(cut: Cut) -> Ending {
+    match cut {
+        Cut::OutOfMemory => Ending::OutOfMemory,
+        Cut::Stopped(Stop::Time) => Ending::OutOfTime,
+        Cut::Stopped(Stop::Cancelled) => Ending::Stopped,
+    }
+}

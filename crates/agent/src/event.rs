@@ -1,0 +1,134 @@
+//! What happens during an episode, for whoever watches.
+
+use serde::Serialize;
+use typelift_model::{GroundAtom, GroundCall, Hierarchy, Plan, Symbol, describe_replacements};
+
+use crate::monitor::StepResult;
+
+/// One step of a plan, in plain words.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct StepSummary {
+    /// The action schema.
+    pub action: Symbol,
+    /// What the environment is told.
+    pub call: GroundCall,
+    /// What was put in place of what, if the step is imagined.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub imagined: Option<String>,
+}
+
+/// A plan, in plain words.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct PlanSummary {
+    /// The steps.
+    pub steps: Vec<StepSummary>,
+}
+
+impl PlanSummary {
+    /// The summary of a plan over a hierarchy.
+    pub fn of(plan: &Plan, hierarchy: &Hierarchy) -> Self {
+        let steps = plan.steps.iter().map(|step| StepSummary {
+            action: step.action.clone(),
+            call: step.call.clone(),
+            imagined: step.imagined.as_ref().map(|i| describe_replacements(&i.replaced, hierarchy)),
+        });
+        Self { steps: steps.collect() }
+    }
+}
+
+/// Something that happened.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[serde(tag = "event", rename_all = "snake_case")]
+pub enum Event {
+    /// Planning begins.
+    PlanningStarted {
+        /// The number of the proposal it may lead to, from 1.
+        proposal: u64,
+    },
+    /// Planning ended.
+    PlanningEnded {
+        /// Nodes expanded.
+        expansions: u64,
+        /// Ground actions.
+        ground_actions: u64,
+        /// Names of the actions that were imagined.
+        imagined: Vec<Symbol>,
+        /// Whether there is a plan.
+        found: bool,
+    },
+    /// A plan is proposed.
+    Proposed {
+        /// Its number, from 1.
+        proposal: u64,
+        /// The plan.
+        plan: PlanSummary,
+    },
+    /// A step was executed, or rejected.
+    Stepped {
+        /// The proposal's number.
+        proposal: u64,
+        /// The step's number, from 1.
+        step: usize,
+        /// The action.
+        call: GroundCall,
+        /// Whether it rests on an imagined action.
+        imagined: bool,
+        /// What came of it.
+        result: StepResult,
+        /// The environment's or the person's reason, if given.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        reason: Option<String>,
+        /// What it added.
+        added: Vec<GroundAtom>,
+        /// What it deleted.
+        deleted: Vec<GroundAtom>,
+    },
+    /// A failed step is tried again.
+    Retried {
+        /// The action.
+        call: GroundCall,
+    },
+    /// An object is excluded.
+    Excluded {
+        /// The object.
+        object: Symbol,
+        /// From actions of this name; from all if absent.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        call: Option<Symbol>,
+        /// Why.
+        reason: String,
+    },
+    /// The world changed by itself: the next step of the plan is no longer applicable.
+    Drifted {
+        /// The step's number, from 1.
+        step: usize,
+        /// The precondition that no longer holds.
+        missing: String,
+    },
+    /// Exclusions from earlier tasks were lifted since nothing else was left.
+    Lifted,
+    /// Actions are used although some of what they add holds already, since nothing else was left.
+    Relaxed,
+    /// It is over.
+    Ended {
+        /// Whether the goal was seen to hold.
+        solved: bool,
+    },
+}
+
+/// Watches an episode.
+pub trait Observer {
+    /// Something happened.
+    fn event(&mut self, event: &Event);
+}
+
+/// Watches nothing.
+impl Observer for () {
+    fn event(&mut self, _: &Event) {}
+}
+
+impl Observer for Vec<Event> {
+    fn event(&mut self, event: &Event) {
+        self.push(event.clone());
+    }
+}

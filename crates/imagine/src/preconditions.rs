@@ -1,0 +1,75 @@
+//! GetUnreachablePreconds: the preconditions of an imagined action that cannot be reached either.
+
+use std::collections::BTreeSet;
+
+use typelift_model::{GroundAtom, LiftedAtom, Symbol, Term};
+
+use crate::Context;
+use crate::create::Proposal;
+
+/// For each precondition of which no instance is reachable, all its instances. Bound parameters stay bound; others
+/// range over the objects of their original type, or of their new type if there are none.
+pub(crate) fn get_unreachable_preconds(context: &Context<'_>, proposal: &Proposal<'_>) -> Vec<GroundAtom> {
+    let choices = choices(context, proposal);
+    let mut unreachable = Vec::new();
+    for precondition in proposal.schema.positive_preconditions() {
+        let instances = instances(precondition, proposal, &choices);
+        if !instances.iter().any(|atom| context.ground.reaches(atom)) {
+            unreachable.extend(instances);
+        }
+    }
+    unreachable
+}
+
+/// The objects that may take each parameter's place.
+fn choices<'a>(context: &Context<'a>, proposal: &Proposal<'a>) -> Vec<Vec<&'a Symbol>> {
+    let (hierarchy, objects) = (&context.model.hierarchy, &context.task.init.objects);
+    let bound: BTreeSet<&Symbol> = proposal.binding.iter().copied().flatten().collect();
+    let of_type = |wanted| -> Vec<&Symbol> {
+        let usable =
+            |name: &Symbol| !bound.contains(name) && context.restrictions.allows(name, &proposal.schema.call.name);
+        objects.iter().filter(|(name, ty)| hierarchy.is_a(**ty, wanted) && usable(name)).map(|(name, _)| name).collect()
+    };
+    let parameters = proposal.schema.parameters.iter().zip(&proposal.types).zip(&proposal.binding);
+    parameters
+        .map(|((parameter, new), object)| match object {
+            Some(object) => vec![*object],
+            None => Some(of_type(parameter.ty)).filter(|found| !found.is_empty()).unwrap_or_else(|| of_type(*new)),
+        })
+        .collect()
+}
+
+/// Every instance of an atom under the choices, objects being different where parameters must be.
+fn instances(atom: &LiftedAtom, proposal: &Proposal<'_>, choices: &[Vec<&Symbol>]) -> Vec<GroundAtom> {
+    let mut parameters: Vec<usize> = atom.params().map(|p| p as usize).collect();
+    parameters.sort_unstable();
+    parameters.dedup();
+    let mut bindings: Vec<Vec<&Symbol>> = vec![Vec::new()];
+    for (at, &parameter) in parameters.iter().enumerate() {
+        let differs = |binding: &[&Symbol], object: &Symbol| {
+            proposal.schema.distinct.iter().all(|&(a, b)| {
+                let other = match (a as usize == parameter, b as usize == parameter) {
+                    (true, false) => b as usize,
+                    (false, true) => a as usize,
+                    _ => return true,
+                };
+                parameters[..at].iter().position(|&p| p == other).is_none_or(|i| binding[i] != object)
+            })
+        };
+        bindings = bindings
+            .iter()
+            .flat_map(|binding| {
+                let fitting = choices[parameter].iter().filter(|object| differs(binding, object));
+                fitting.map(|object| binding.iter().copied().chain([*object]).collect()).collect::<Vec<Vec<_>>>()
+            })
+            .collect();
+    }
+    let place = |p: u32| parameters.iter().position(|&q| q == p as usize).unwrap_or_default();
+    let ground = |binding: &Vec<&Symbol>| {
+        atom.map(|term| match term {
+            Term::Const(name) => name.clone(),
+            Term::Param(p) => binding[place(*p)].clone(),
+        })
+    };
+    bindings.iter().map(ground).collect()
+}

@@ -1,0 +1,203 @@
+//! ClusterLiftedEffects (Algorithm 1, line 1): transitions whose effects unify belong to one cluster.
+//!
+//! Two transitions of one action unify if a bijection of their objects that keeps every object's leaf type maps the
+//! one call onto the other and adds onto adds, deletes onto deletes. The objects of a transition are the arguments
+//! of its call and the entities of its effect. Instead of comparing transitions pairwise, each is brought into a
+//! canonical form, so that unifying transitions have equal keys: the arguments of the call are labelled in their
+//! order; the other entities of the effect in the way that makes the lifted effect smallest and, where several do
+//! (automorphisms), the lifted pre-state.
+//!
+//! The labelling refines colour classes by type and by the effect's atoms, then tries the orders that are left,
+//! skipping entities that can be swapped without any difference. If more than [`LEAF_BOUND`] orders are left, the
+//! transition is reported as too symmetric rather than labelled by chance.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use typelift_model::{
+    ClusterKey, Evidence, GroundAtom, Hierarchy, LiftedAtom, NegativeKey, Symbol, Term, TypeId, Unexplained,
+};
+use typelift_world::Transition;
+
+/// Orders of the entities of one effect that are compared at most.
+const LEAF_BOUND: usize = 40_320;
+
+/// Adds one transition to the evidence.
+pub fn observe(evidence: &mut Evidence, transition: &Transition<'_>, hierarchy: &Hierarchy) {
+    evidence.transitions += 1;
+    let witness = transition.witness();
+    let (before, after, call) = (transition.before, transition.after, &transition.action.call);
+    if before.objects != after.objects || call.args.iter().any(|arg| !before.objects.contains_key(arg)) {
+        evidence.add_unexplained(Unexplained::ObjectsChanged, witness);
+        return;
+    }
+    let adds: Vec<&GroundAtom> = before.added(after).collect();
+    let deletes: Vec<&GroundAtom> = before.deleted(after).collect();
+
+    let mut objects: Vec<&Symbol> = Vec::new();
+    for object in call.args.iter().chain(adds.iter().chain(&deletes).flat_map(|atom| &atom.args)) {
+        if !objects.contains(&object) {
+            objects.push(object);
+        }
+    }
+    let named = call.args.iter().collect::<BTreeSet<_>>().len();
+    let types: Vec<TypeId> = objects.iter().map(|object| before.objects[*object]).collect();
+    let call_params: Vec<u32> =
+        call.args.iter().map(|arg| objects.iter().position(|o| *o == arg).unwrap_or_default() as u32).collect();
+    let type_names = |order: &[usize]| order.iter().map(|&i| hierarchy.name(types[i]).clone()).collect::<Vec<_>>();
+
+    let index: BTreeMap<&Symbol, u32> = objects.iter().copied().zip(0..).collect();
+    let lift = |atom: &GroundAtom| LiftedAtom::lift(atom, |object| index.get(object).copied());
+    let state: Vec<LiftedAtom> = before.atoms.iter().filter_map(lift).collect();
+
+    if adds.is_empty() && deletes.is_empty() {
+        let identity: Vec<usize> = (0..objects.len()).collect();
+        let key = NegativeKey { action: call.name.clone(), types: type_names(&identity), call: call_params };
+        evidence.negatives.entry(key).or_default().add(state.into_iter().collect(), witness);
+        return;
+    }
+    let effect = Effect {
+        adds: adds.into_iter().filter_map(lift).collect(),
+        deletes: deletes.into_iter().filter_map(lift).collect(),
+        state,
+    };
+    let initial = objects
+        .iter()
+        .enumerate()
+        .map(|(i, _)| if i < named { format!("{i:08}") } else { format!("~{}", hierarchy.name(types[i])) });
+    let Some((order, lifted)) = canonical_form(&effect, initial.collect(), named) else {
+        evidence.add_unexplained(Unexplained::TooSymmetric, witness);
+        return;
+    };
+    let key = ClusterKey {
+        action: call.name.clone(),
+        types: type_names(&order),
+        call: call_params,
+        adds: lifted.adds,
+        deletes: lifted.deletes,
+    };
+    evidence.clusters.entry(key).or_default().add(lifted.state.into_iter().collect(), witness);
+}
+
+/// Lifted atoms over object indices, in some labelling. Ordered as canonical forms are compared.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+struct Effect {
+    adds: Vec<LiftedAtom>,
+    deletes: Vec<LiftedAtom>,
+    state: Vec<LiftedAtom>,
+}
+
+impl Effect {
+    /// The same under `label[object]`, sorted.
+    fn relabelled(&self, label: &[u32]) -> Self {
+        let map = |atoms: &[LiftedAtom]| {
+            let mut atoms: Vec<LiftedAtom> = atoms.iter().map(|atom| atom.renamed(label)).collect();
+            atoms.sort_unstable();
+            atoms
+        };
+        Self { adds: map(&self.adds), deletes: map(&self.deletes), state: map(&self.state) }
+    }
+}
+
+/// The order of objects (those named by the call first, as they are) that makes the relabelled effect smallest,
+/// with that effect; `None` beyond [`LEAF_BOUND`].
+fn canonical_form(effect: &Effect, initial: Vec<String>, named: usize) -> Option<(Vec<usize>, Effect)> {
+    let classes = refine(effect, initial);
+    let n = classes.len();
+    let mut sorted: Vec<usize> = (0..n).collect();
+    sorted.sort_by_key(|&i| (classes[i], i));
+    let identity: Vec<u32> = (0..n as u32).collect();
+    let plain = effect.relabelled(&identity);
+    let swappable = |a: usize, b: usize| {
+        let mut swap = identity.clone();
+        swap.swap(a, b);
+        effect.relabelled(&swap) == plain
+    };
+    let mut search = Labelling { effect, sorted: &sorted, classes: &classes, leaves: 0, best: None };
+    let complete = search.extend(&mut sorted[..named].to_vec(), &swappable);
+    search.best.filter(|_| complete).map(|(lifted, order)| (order, lifted))
+}
+
+struct Labelling<'a> {
+    effect: &'a Effect,
+    sorted: &'a [usize],
+    classes: &'a [usize],
+    leaves: usize,
+    best: Option<(Effect, Vec<usize>)>,
+}
+
+impl Labelling<'_> {
+    /// Extends `order` in every way that respects the classes; `false` if there are too many.
+    fn extend(&mut self, order: &mut Vec<usize>, swappable: &impl Fn(usize, usize) -> bool) -> bool {
+        let at = order.len();
+        if at == self.sorted.len() {
+            self.leaves += 1;
+            let mut label = vec![0; at];
+            for (position, &object) in order.iter().enumerate() {
+                label[object] = position as u32;
+            }
+            let candidate = self.effect.relabelled(&label);
+            if self.best.as_ref().is_none_or(|(best, _)| candidate < *best) {
+                self.best = Some((candidate, order.clone()));
+            }
+            return self.leaves < LEAF_BOUND;
+        }
+        let class = self.classes[self.sorted[at]];
+        let choices: Vec<usize> =
+            self.sorted.iter().copied().filter(|&o| self.classes[o] == class && !order.contains(&o)).collect();
+        let mut tried: Vec<usize> = Vec::new();
+        for object in choices {
+            if tried.iter().any(|&other| swappable(other, object)) {
+                continue;
+            }
+            tried.push(object);
+            order.push(object);
+            let within_bound = self.extend(order, swappable);
+            order.pop();
+            if !within_bound {
+                return false;
+            }
+        }
+        true
+    }
+}
+
+/// Colour refinement: the class of each object, numbered in an order that depends on structure alone. Starts from
+/// the given colours and tells objects apart by the signed effect atoms they occur in, until nothing changes.
+fn refine(effect: &Effect, initial: Vec<String>) -> Vec<usize> {
+    let mut classes = ranked(&initial);
+    loop {
+        let colours: Vec<_> = (0..classes.len())
+            .map(|object| {
+                let mut seen: Vec<String> = Vec::new();
+                for (sign, atoms) in [('+', &effect.adds), ('-', &effect.deletes)] {
+                    for atom in atoms.iter().filter(|atom| atom.params().any(|p| p as usize == object)) {
+                        seen.push(occurrence(sign, atom, object, &classes));
+                    }
+                }
+                seen.sort_unstable();
+                (classes[object], seen)
+            })
+            .collect();
+        let refined = ranked(&colours);
+        if refined == classes {
+            return classes;
+        }
+        classes = refined;
+    }
+}
+
+/// How one effect atom looks from one of its objects.
+fn occurrence(sign: char, atom: &LiftedAtom, object: usize, classes: &[usize]) -> String {
+    let args = atom.args.iter().map(|term| match term {
+        Term::Param(p) if *p as usize == object => "self".to_owned(),
+        Term::Param(p) => format!("{:08}", classes[*p as usize]),
+        Term::Const(name) => format!("'{name}"),
+    });
+    format!("{sign}{}({})", atom.predicate, args.collect::<Vec<_>>().join(","))
+}
+
+fn ranked<T: Ord>(colours: &[T]) -> Vec<usize> {
+    let distinct: BTreeSet<&T> = colours.iter().collect();
+    let rank: BTreeMap<&T, usize> = distinct.into_iter().zip(0..).collect();
+    colours.iter().map(|colour| rank[colour]).collect()
+}

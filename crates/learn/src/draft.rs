@@ -1,0 +1,87 @@
+//! CreateAction (Algorithm 1, line 4): an action from a cluster, and its final, named form.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use typelift_model::{
+    ActionModel, ActionSchema, ClusterKey, Effect, Hierarchy, LiftedAtom, LiftedCall, Literal, Parameter, Provenance,
+    Source, Symbol, Term, TypeId, schema_name,
+};
+
+use crate::LearnError;
+
+/// An action under construction: still without a name, its preconditions positive, its parameters distinct.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Draft {
+    pub(crate) action: Symbol,
+    pub(crate) types: Vec<TypeId>,
+    pub(crate) call: Vec<u32>,
+    pub(crate) preconditions: BTreeSet<LiftedAtom>,
+    pub(crate) adds: BTreeSet<LiftedAtom>,
+    pub(crate) deletes: BTreeSet<LiftedAtom>,
+    /// The clusters it rests on, sorted.
+    pub(crate) sources: Vec<Source>,
+}
+
+/// The individual action of a cluster.
+pub(crate) fn create_action(
+    key: &ClusterKey,
+    preconditions: BTreeSet<LiftedAtom>,
+    hierarchy: &Hierarchy,
+) -> Result<Draft, LearnError> {
+    let types = key.types.iter();
+    let types = types.map(|name| hierarchy.id(name.as_str()).ok_or_else(|| LearnError::UnknownType(name.clone())));
+    Ok(Draft {
+        action: key.action.clone(),
+        types: types.collect::<Result<_, _>>()?,
+        call: key.call.clone(),
+        preconditions,
+        adds: key.adds.iter().cloned().collect(),
+        deletes: key.deletes.iter().cloned().collect(),
+        sources: vec![Source { cluster: key.clone(), map: (0..key.types.len() as u32).collect() }],
+    })
+}
+
+impl Draft {
+    /// Its effect as signed atoms.
+    pub(crate) fn signed_effect(&self) -> Vec<(bool, LiftedAtom)> {
+        let adds = self.adds.iter().map(|a| (true, a.clone()));
+        adds.chain(self.deletes.iter().map(|a| (false, a.clone()))).collect()
+    }
+
+    /// The schema, named by its call alone; [`name_actions`] tells schemas apart.
+    pub(crate) fn into_schema(self) -> ActionSchema {
+        let literal = |(positive, atom)| Effect::always(Literal { atom, positive });
+        let mut effects: Vec<Effect> = self.signed_effect().into_iter().map(literal).collect();
+        effects.sort_unstable();
+        let parameter = |(i, ty): (usize, &TypeId)| Parameter { name: Symbol::from(format!("x{i}")), ty: *ty };
+        let provenance = match <[Source; 1]>::try_from(self.sources) {
+            Ok([source]) => Provenance::Demonstrated(source),
+            Err(sources) => Provenance::Generalized(sources),
+        };
+        ActionSchema {
+            name: self.action.clone(),
+            call: LiftedCall { name: self.action, args: self.call.into_iter().map(Term::Param).collect() },
+            distinct: ActionSchema::all_distinct(self.types.len()),
+            parameters: self.types.iter().enumerate().map(parameter).collect(),
+            preconditions: self.preconditions.into_iter().map(Literal::positive).collect(),
+            effects,
+            cost: 1,
+            provenance,
+        }
+    }
+}
+
+/// Names the actions by call and types, numbered on ties, and sorts them by name.
+pub(crate) fn name_actions(model: &mut ActionModel) {
+    let (hierarchy, actor) = (&model.hierarchy, model.actor);
+    let is_actor = |ty| actor.is_some_and(|actor| hierarchy.is_a(ty, actor));
+    let mut used: BTreeMap<String, usize> = BTreeMap::new();
+    for action in &mut model.actions {
+        let types = action.parameters.iter().map(|p| (hierarchy.name(p.ty), is_actor(p.ty)));
+        let name = schema_name(&action.call.name, types);
+        let count = used.entry(name.clone()).or_default();
+        *count += 1;
+        action.name = if *count == 1 { Symbol::from(name) } else { Symbol::from(format!("{name}-{count}")) };
+    }
+    model.actions.sort_by(|a, b| a.name.cmp(&b.name));
+}

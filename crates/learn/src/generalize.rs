@@ -1,0 +1,164 @@
+//! The second phase of Algorithm 1: pairs of actions with similar effects become one, until nothing changes.
+//!
+//! Two actions are *mergeable* if they have the same name and a bijection of their parameters maps call onto call
+//! and effect onto effect. (The paper asks for the same set of predicates in the effect; a set would put "toast one"
+//! beside "toast two".)
+//!
+//! **Candidate preconditions.** The paper scores the common preconditions together with every subset of the
+//! difference. Recall can only fall when a precondition is added: an observation that contains the larger set
+//! contains the smaller one. So no candidate has a higher recall than the common preconditions alone, and of equals
+//! the one with fewest preconditions, the most general, is kept. The power set need not be enumerated: the
+//! intersection is the answer, whatever the preconditions and the observations are. A property test holds this
+//! against enumeration.
+
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BTreeSet};
+
+use typelift_model::{Evidence, Hierarchy, LiftedAtom, Source, Symbol, TypeId, effect_bijections};
+
+use crate::draft::Draft;
+use crate::score::score_action;
+
+/// Bijections between two effects that are compared at most; beyond it, the first ones in order.
+const BIJECTION_BOUND: usize = 5_040;
+
+/// What mergeable actions agree in: a cheap necessary condition.
+type Shape = (Symbol, Vec<u32>, usize, Vec<(bool, Symbol)>);
+
+fn shape(action: &Draft) -> Shape {
+    let mut predicates: Vec<(bool, Symbol)> =
+        action.signed_effect().into_iter().map(|(sign, atom)| (sign, atom.predicate)).collect();
+    predicates.sort_unstable();
+    (action.action.clone(), action.call.clone(), action.types.len(), predicates)
+}
+
+/// Generalizes pairs until nothing changes; also returns how many pairs were scored.
+pub(crate) fn to_fixed_point(actions: Vec<Draft>, evidence: &Evidence, hierarchy: &Hierarchy) -> (Vec<Draft>, usize) {
+    let mut scored = 0;
+    let mut groups: BTreeMap<Shape, Vec<Draft>> = BTreeMap::new();
+    for action in actions {
+        groups.entry(shape(&action)).or_default().push(action);
+    }
+    for group in groups.values_mut() {
+        while let Some((i, j, generalized)) = first_merge(group, evidence, hierarchy, &mut scored) {
+            group[i] = generalized;
+            group.remove(j);
+        }
+    }
+    (groups.into_values().flatten().collect(), scored)
+}
+
+/// The first pair, in order, whose generalization is at least as good as the mean of the two.
+fn first_merge(
+    group: &[Draft],
+    evidence: &Evidence,
+    hierarchy: &Hierarchy,
+    scored: &mut usize,
+) -> Option<(usize, usize, Draft)> {
+    for (i, left) in group.iter().enumerate() {
+        for (j, right) in group.iter().enumerate().skip(i + 1) {
+            let Some(correspondence) = corresponding_parameters(left, right, hierarchy) else { continue };
+            let types = create_gen_pars(left, right, &correspondence, hierarchy);
+            let generalized = create_gen_action(left, right, &correspondence, types);
+            let score = |a: &Draft| score_action(&a.preconditions, &a.sources, evidence);
+            *scored += 1;
+            if score(&generalized).at_least_mean_of(score(left), score(right)) {
+                return Some((i, j, generalized));
+            }
+        }
+    }
+    None
+}
+
+/// The bijection `map[left] = right` of the parameters; of several the one with most common preconditions, then the
+/// deepest common ancestors, then the smallest.
+fn corresponding_parameters(left: &Draft, right: &Draft, hierarchy: &Hierarchy) -> Option<Vec<u32>> {
+    let mut fixed = vec![None; left.types.len()];
+    for (&l, &r) in left.call.iter().zip(&right.call) {
+        fixed[l as usize] = Some(r);
+    }
+    let (effect_l, effect_r) = (left.signed_effect(), right.signed_effect());
+    let maps = effect_bijections(&fixed, |_, _| true, &effect_l, &effect_r, BIJECTION_BOUND);
+    let common =
+        |map: &[u32]| left.preconditions.iter().filter(|a| right.preconditions.contains(&a.renamed(map))).count();
+    let depth = |map: &[u32]| {
+        create_gen_pars(left, right, map, hierarchy).into_iter().map(|ty| u64::from(hierarchy.depth(ty))).sum::<u64>()
+    };
+    maps.into_iter().min_by_key(|map| (Reverse(common(map)), Reverse(depth(map)), map.clone()))
+}
+
+/// CreateGenPars: the lowest common ancestor of each pair of corresponding parameters.
+fn create_gen_pars(left: &Draft, right: &Draft, correspondence: &[u32], hierarchy: &Hierarchy) -> Vec<TypeId> {
+    let pairs = left.types.iter().zip(correspondence);
+    pairs.map(|(&ty, &other)| hierarchy.lca(ty, right.types[other as usize])).collect()
+}
+
+/// CreateGenAction: the action over the generalized parameters, with the best candidate preconditions.
+fn create_gen_action(left: &Draft, right: &Draft, correspondence: &[u32], types: Vec<TypeId>) -> Draft {
+    let mut to_left = vec![0; correspondence.len()];
+    for (l, &r) in correspondence.iter().enumerate() {
+        to_left[r as usize] = l as u32;
+    }
+    let moved = right.preconditions.iter().map(|atom| atom.renamed(&to_left)).collect();
+    let mut sources = left.sources.clone();
+    sources.extend(right.sources.iter().map(|source| Source {
+        cluster: source.cluster.clone(),
+        map: source.map.iter().map(|&parameter| to_left[parameter as usize]).collect(),
+    }));
+    sources.sort_by(|a, b| a.cluster.cmp(&b.cluster));
+    Draft { types, preconditions: best_candidate(&left.preconditions, &moved), sources, ..left.clone() }
+}
+
+/// The best of the candidates `common ∪ subset of the difference`: the common preconditions (see the file's head).
+fn best_candidate(left: &BTreeSet<LiftedAtom>, right: &BTreeSet<LiftedAtom>) -> BTreeSet<LiftedAtom> {
+    left.intersection(right).cloned().collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn atom(i: u8) -> LiftedAtom {
+        LiftedAtom::new(format!("p{i}").as_str(), Vec::new())
+    }
+
+    fn atoms(bits: u8) -> BTreeSet<LiftedAtom> {
+        (0..8).filter(|i| bits >> i & 1 == 1).map(atom).collect()
+    }
+
+    /// Every candidate, enumerated as the paper has it; the best by recall, then size, then order.
+    fn by_enumeration(left: u8, right: u8, observations: &[u8]) -> u8 {
+        let (common, difference) = (left & right, left ^ right);
+        let recall = |candidate: u8| observations.iter().filter(|&&o| o & candidate == candidate).count();
+        (0..=u8::MAX)
+            .filter(|subset| subset & !difference == 0)
+            .map(|subset| common | subset)
+            .min_by_key(|&candidate| (Reverse(recall(candidate)), candidate.count_ones(), candidate))
+            .unwrap_or(common)
+    }
+
+    proptest! {
+        #[test]
+        fn the_intersection_is_the_best_candidate(left: u8, right: u8, observations in prop::collection::vec(any::<u8>(), 0..12)) {
+            prop_assert_eq!(best_candidate(&atoms(left), &atoms(right)), atoms(by_enumeration(left, right, &observations)));
+        }
+
+        /// Where each side's preconditions are the whole intersection over its observations, nothing ties with it.
+        #[test]
+        fn after_extraction_it_is_the_only_best_one(
+            left in prop::collection::vec(any::<u8>(), 1..5),
+            right in prop::collection::vec(any::<u8>(), 1..5),
+        ) {
+            let (pre_l, pre_r) = (left.iter().fold(255, |a, b| a & b), right.iter().fold(255, |a, b| a & b));
+            let all: Vec<u8> = left.iter().chain(&right).copied().collect();
+            let recall = |candidate: u8| all.iter().filter(|&&o| o & candidate == candidate).count();
+            let (common, difference) = (pre_l & pre_r, pre_l ^ pre_r);
+            prop_assert_eq!(recall(common), all.len());
+            for subset in (1..=u8::MAX).filter(|subset| subset & !difference == 0) {
+                prop_assert!(recall(common | subset) < all.len());
+            }
+        }
+    }
+}

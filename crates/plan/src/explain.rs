@@ -1,0 +1,210 @@
+//! Why there is no plan.
+
+use std::fmt;
+
+use typelift_model::{ActionModel, ActionSchema, GroundAtom, LiftedAtom, Symbol, Task, Term};
+
+use crate::Restrictions;
+use crate::ground::GroundTask;
+
+/// What stands between an action and the atom that it could achieve.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Misfit {
+    /// An object has a type that the action does not take.
+    Type {
+        /// The object.
+        object: Symbol,
+        /// Its type.
+        found: Symbol,
+        /// The type that the action takes there.
+        expected: Symbol,
+    },
+    /// An object may not be used.
+    Excluded {
+        /// The object.
+        object: Symbol,
+    },
+    /// No object of a type may be used.
+    NoObject {
+        /// The type.
+        ty: Symbol,
+    },
+    /// A precondition cannot be reached; parameters that the atom leaves open are written by their type.
+    Precondition(String),
+}
+
+impl fmt::Display for Misfit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Type { object, found, expected } => write!(f, "{object} is of type {found}, not {expected}"),
+            Self::Excluded { object } => write!(f, "{object} may not be used any more"),
+            Self::NoObject { ty } => write!(f, "there is no {ty} that may be used"),
+            Self::Precondition(atom) => write!(f, "it needs {atom}, which cannot be reached"),
+        }
+    }
+}
+
+/// The action that comes nearest to achieving an atom.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Nearest {
+    /// Its name.
+    pub action: Symbol,
+    /// What is missing; empty if only no choice of objects satisfies all preconditions at once.
+    pub misfits: Vec<Misfit>,
+}
+
+/// A goal atom that cannot be reached even if nothing is ever deleted.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct UnreachableGoal {
+    /// The atom.
+    pub atom: GroundAtom,
+    /// The nearest action; none if no action adds an atom of this predicate.
+    pub nearest: Option<Nearest>,
+}
+
+/// Why there is no plan.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Explanation {
+    /// Some goal atoms cannot be reached at all.
+    Unreachable(Vec<UnreachableGoal>),
+    /// Each goal atom can be reached, but not all together; where the search came closest, these were missing.
+    NotTogether {
+        /// The missing goal atoms.
+        missing: Vec<GroundAtom>,
+    },
+}
+
+impl fmt::Display for Explanation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unreachable(goals) => {
+                for (i, goal) in goals.iter().enumerate() {
+                    if i > 0 {
+                        f.write_str("\n")?;
+                    }
+                    write!(f, "{} cannot be reached: ", goal.atom)?;
+                    match &goal.nearest {
+                        None => write!(f, "no action adds {}", goal.atom.predicate)?,
+                        Some(nearest) if nearest.misfits.is_empty() => {
+                            write!(f, "no choice of objects satisfies all preconditions of {}", nearest.action)?;
+                        }
+                        Some(nearest) => {
+                            let misfits: Vec<String> = nearest.misfits.iter().map(ToString::to_string).collect();
+                            write!(f, "the nearest action is {}, but {}", nearest.action, misfits.join(", and "))?;
+                        }
+                    }
+                }
+                Ok(())
+            }
+            Self::NotTogether { missing } => {
+                let missing: Vec<String> = missing.iter().map(ToString::to_string).collect();
+                write!(
+                    f,
+                    "each goal can be reached alone, but not all together; at best this is missing: {}",
+                    missing.join(" ")
+                )
+            }
+        }
+    }
+}
+
+/// For each unreachable goal atom, the action that comes nearest to it.
+pub(crate) fn unreachable(
+    model: &ActionModel,
+    task: &Task,
+    restrictions: &Restrictions,
+    ground: &GroundTask,
+) -> Vec<UnreachableGoal> {
+    let context = Context { model, task, restrictions, ground };
+    let nearest = |atom: &GroundAtom| {
+        let candidates = model.actions.iter().flat_map(|schema| schema.adds().map(move |add| (schema, add)));
+        let fitting = candidates.filter(|(_, add)| add.predicate == atom.predicate && add.arity() == atom.arity());
+        fitting
+            .filter_map(|(schema, add)| context.misfits(schema, add, atom))
+            .min_by_key(|nearest| nearest.misfits.len())
+    };
+    ground
+        .unreachable_goals()
+        .iter()
+        .map(|atom| UnreachableGoal { atom: atom.clone(), nearest: nearest(atom) })
+        .collect()
+}
+
+struct Context<'a> {
+    model: &'a ActionModel,
+    task: &'a Task,
+    restrictions: &'a Restrictions,
+    ground: &'a GroundTask,
+}
+
+impl Context<'_> {
+    /// What keeps `schema` from adding `atom` through its effect `add`; `None` if the effect can never be this atom.
+    fn misfits(&self, schema: &ActionSchema, add: &LiftedAtom, atom: &GroundAtom) -> Option<Nearest> {
+        let hierarchy = &self.model.hierarchy;
+        let mut binding: Vec<Option<&Symbol>> = vec![None; schema.parameters.len()];
+        for (term, object) in add.args.iter().zip(&atom.args) {
+            match term {
+                Term::Const(name) if name != object => return None,
+                Term::Const(_) => {}
+                Term::Param(p) => match binding[*p as usize].replace(object) {
+                    Some(other) if other != object => return None,
+                    _ => {}
+                },
+            }
+        }
+        let mut misfits = Vec::new();
+        for (parameter, object) in schema.parameters.iter().zip(&binding) {
+            let Some(object) = object else {
+                let usable = |(name, ty): (&Symbol, &_)| {
+                    hierarchy.is_a(*ty, parameter.ty) && self.restrictions.allows(name, &schema.call.name)
+                };
+                if !self.task.init.objects.iter().any(usable) {
+                    misfits.push(Misfit::NoObject { ty: hierarchy.name(parameter.ty).clone() });
+                }
+                continue;
+            };
+            let ty = *self.task.init.objects.get(*object)?;
+            if !hierarchy.is_a(ty, parameter.ty) {
+                let (found, expected) = (hierarchy.name(ty).clone(), hierarchy.name(parameter.ty).clone());
+                misfits.push(Misfit::Type { object: (*object).clone(), found, expected });
+            } else if !self.restrictions.allows(object, &schema.call.name) {
+                misfits.push(Misfit::Excluded { object: (*object).clone() });
+            }
+        }
+        if misfits.is_empty() {
+            let missing = schema.positive_preconditions().find(|pre| !self.reachable_somehow(schema, pre, &binding));
+            misfits.extend(missing.map(|pre| Misfit::Precondition(written(schema, pre, &binding, self.model))));
+        }
+        Some(Nearest { action: schema.name.clone(), misfits })
+    }
+
+    /// Whether some instance of a precondition under a partial binding is reachable.
+    fn reachable_somehow(&self, schema: &ActionSchema, pre: &LiftedAtom, binding: &[Option<&Symbol>]) -> bool {
+        self.ground.reached_facts().map(|fact| self.ground.atom(fact)).any(|fact| {
+            fact.predicate == pre.predicate
+                && fact.arity() == pre.arity()
+                && pre.args.iter().zip(&fact.args).all(|(term, object)| match term {
+                    Term::Const(name) => name == object,
+                    Term::Param(p) => binding[*p as usize].map_or_else(
+                        || {
+                            let ty = self.task.init.objects[object];
+                            self.model.hierarchy.is_a(ty, schema.parameters[*p as usize].ty)
+                        },
+                        |bound| bound == object,
+                    ),
+                })
+        })
+    }
+}
+
+/// A lifted atom with bound parameters written as objects and others as `any TYPE`.
+fn written(schema: &ActionSchema, atom: &LiftedAtom, binding: &[Option<&Symbol>], model: &ActionModel) -> String {
+    atom.map(|term| match term {
+        Term::Const(name) => name.to_string(),
+        Term::Param(p) => match binding[*p as usize] {
+            Some(object) => object.to_string(),
+            None => format!("any {}", model.hierarchy.name(schema.parameters[*p as usize].ty)),
+        },
+    })
+    .to_string()
+}

@@ -1,0 +1,291 @@
+//! Grounding: the reachable ground actions of a task as a search wants them, in the order in which they are tried.
+//!
+//! The order is load-bearing (see [`TieOrder`]): of two plans that the heuristic cannot tell apart, the one whose
+//! actions come first is found.
+
+use std::collections::BTreeSet;
+
+use thiserror::Error;
+use typelift_model::{ActionModel, ActionSchema, Budget, GroundAtom, HashSet, Step, Stop, Symbol, Task};
+
+use crate::Restrictions;
+use crate::reach::{Facts, RawOp, Reached, reach};
+
+/// A fact of one [`GroundTask`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct FactId(u32);
+
+impl FactId {
+    pub(crate) fn new(index: usize) -> Self {
+        Self(index as u32)
+    }
+
+    pub(crate) fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// A ground action of one [`GroundTask`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct OpId(u32);
+
+impl OpId {
+    pub(crate) fn new(index: usize) -> Self {
+        Self(index as u32)
+    }
+
+    pub(crate) fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// Why grounding ended early.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+pub enum Cut {
+    /// The bytes allowed are used up.
+    #[error("out of memory while grounding")]
+    OutOfMemory,
+    /// It was told to stop.
+    #[error("stopped while grounding")]
+    Stopped(Stop),
+}
+
+/// In which order ground actions are tried.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum TieOrder {
+    /// By the call's name, then from the most to the least specific schema (by the mean depth of its parameters'
+    /// types), then by name: what was observed for a narrower type is preferred to what covers it.
+    #[default]
+    SpecificFirst,
+    /// By the call's name, then from the least to the most specific schema.
+    GeneralFirst,
+    /// By the schema's and the objects' names alone.
+    Name,
+}
+
+/// An effect that depends on the state.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct ConditionalEffect {
+    /// Facts that must hold.
+    pub positive: Vec<FactId>,
+    /// Facts that must not hold.
+    pub negative: Vec<FactId>,
+    /// The fact concerned.
+    pub fact: FactId,
+    /// Whether it is added.
+    pub adds: bool,
+}
+
+/// A ground action. All lists are sorted.
+#[derive(Debug, Clone)]
+pub struct Op {
+    schema: usize,
+    objects: Vec<Symbol>,
+    /// Facts that must hold.
+    pub preconditions: Vec<FactId>,
+    /// Facts that must not hold.
+    pub negative: Vec<FactId>,
+    /// Facts added whatever the state.
+    pub adds: Vec<FactId>,
+    /// Facts deleted whatever the state, and not added.
+    pub deletes: Vec<FactId>,
+    /// Effects with conditions.
+    pub conditional: Vec<ConditionalEffect>,
+    /// The cost.
+    pub cost: u32,
+    /// Whether an object that is no actor is mentioned in the goal.
+    pub touches_goal: bool,
+}
+
+/// A grounded task.
+#[derive(Debug)]
+pub struct GroundTask {
+    schemas: Vec<ActionSchema>,
+    facts: Facts,
+    ops: Vec<Op>,
+    init: Vec<FactId>,
+    goal: Vec<FactId>,
+    goal_atoms: Vec<GroundAtom>,
+    unreachable: Vec<GroundAtom>,
+    ops_before_deduplication: usize,
+}
+
+/// Grounds a task: what is reachable without deletes, nothing else.
+///
+/// # Errors
+/// [`Cut`] if the budget ends it.
+pub fn ground(
+    model: &ActionModel,
+    task: &Task,
+    restrictions: &Restrictions,
+    order: TieOrder,
+    budget: &Budget,
+) -> Result<GroundTask, Cut> {
+    let Reached { mut facts, ops: mut raw } = reach(model, task, restrictions, budget)?;
+    let init: Vec<FactId> = task.init.atoms.iter().filter_map(|atom| facts.find(atom)).collect();
+    let (mut goal, mut unreachable) = (Vec::new(), Vec::new());
+    for atom in &task.goal {
+        match facts.intern_atom(atom) {
+            Some(fact) if facts.is_reached(fact) => goal.push(fact),
+            _ => unreachable.push(atom.clone()),
+        }
+    }
+    goal.sort_unstable();
+    goal.dedup();
+    let rank = schema_ranks(model, order);
+    raw.sort_by(|a, b| (rank[a.schema], &a.objects).cmp(&(rank[b.schema], &b.objects)));
+    let mentioned: BTreeSet<&Symbol> = task.goal.iter().flat_map(|atom| &atom.args).collect();
+    let touches_goal = |op: &RawOp| {
+        op.objects.iter().any(|&object| {
+            let ty = task.init.objects[facts.name(object)];
+            !model.is_actor(ty) && mentioned.contains(facts.name(object))
+        })
+    };
+    let ops_before_deduplication = raw.len();
+    let mut seen = HashSet::default();
+    let mut ops = Vec::with_capacity(raw.len());
+    for op in raw {
+        let schema = &model.actions[op.schema];
+        let touches_goal = touches_goal(&op);
+        let op = resolve(op, schema, &facts, touches_goal);
+        let call: Vec<Symbol> = schema.call.args.iter().map(|term| term.object(&op.objects)).collect();
+        let identity = (schema.call.name.clone(), call, op.preconditions.clone(), op.negative.clone(), op.cost);
+        let effect = (op.adds.clone(), op.deletes.clone(), op.conditional.clone());
+        if seen.insert((identity, effect)) {
+            ops.push(op);
+        }
+    }
+    let goal_atoms = task.goal.clone();
+    let schemas = model.actions.clone();
+    Ok(GroundTask { schemas, facts, ops, init, goal, goal_atoms, unreachable, ops_before_deduplication })
+}
+
+/// The place of each schema in the order in which successors are tried.
+fn schema_ranks(model: &ActionModel, order: TieOrder) -> Vec<usize> {
+    let mut sorted: Vec<usize> = (0..model.actions.len()).collect();
+    sorted.sort_by(|&a, &b| {
+        let (a, b) = (&model.actions[a], &model.actions[b]);
+        let ((sum_a, n_a), (sum_b, n_b)) = (a.specificity(&model.hierarchy), b.specificity(&model.hierarchy));
+        let specific_first = (sum_b * n_a).cmp(&(sum_a * n_b));
+        let by_specificity = match order {
+            TieOrder::SpecificFirst => specific_first,
+            TieOrder::GeneralFirst => specific_first.reverse(),
+            TieOrder::Name => std::cmp::Ordering::Equal,
+        };
+        a.call.name.cmp(&b.call.name).then(by_specificity).then_with(|| a.name.cmp(&b.name))
+    });
+    let mut rank = vec![0; sorted.len()];
+    for (place, schema) in sorted.into_iter().enumerate() {
+        rank[schema] = place;
+    }
+    rank
+}
+
+/// Drops what can never matter: deletes and negative conditions on facts that are never reached, effects whose
+/// condition never is.
+fn resolve(raw: RawOp, schema: &ActionSchema, facts: &Facts, touches_goal: bool) -> Op {
+    let reached = |list: Vec<FactId>| {
+        let mut list: Vec<FactId> = list.into_iter().filter(|&f| facts.is_reached(f)).collect();
+        list.sort_unstable();
+        list.dedup();
+        list
+    };
+    let (mut adds, mut deletes, mut conditional) = (Vec::new(), Vec::new(), Vec::new());
+    for effect in raw.effects {
+        let possible = effect.condition.iter().all(|&c| facts.is_reached(c)) && facts.is_reached(effect.fact);
+        if !possible {
+            continue;
+        }
+        let negative = reached(effect.negative_condition);
+        if effect.condition.is_empty() && negative.is_empty() {
+            let list = if effect.adds { &mut adds } else { &mut deletes };
+            list.push(effect.fact);
+        } else {
+            let positive = reached(effect.condition);
+            conditional.push(ConditionalEffect { positive, negative, fact: effect.fact, adds: effect.adds });
+        }
+    }
+    let adds = reached(adds);
+    let mut deletes = reached(deletes);
+    deletes.retain(|fact| adds.binary_search(fact).is_err());
+    conditional.sort_unstable();
+    Op {
+        schema: raw.schema,
+        objects: raw.objects.iter().map(|&o| facts.name(o).clone()).collect(),
+        preconditions: reached(raw.preconditions),
+        negative: reached(raw.negative),
+        adds,
+        deletes,
+        conditional,
+        cost: schema.cost,
+        touches_goal,
+    }
+}
+
+impl GroundTask {
+    /// The ground actions, in the order in which they are tried.
+    pub fn ops(&self) -> impl Iterator<Item = (OpId, &Op)> {
+        self.ops.iter().enumerate().map(|(i, op)| (OpId::new(i), op))
+    }
+
+    /// One ground action.
+    pub fn op(&self, id: OpId) -> &Op {
+        &self.ops[id.index()]
+    }
+
+    /// The number of ground actions.
+    pub fn op_count(&self) -> usize {
+        self.ops.len()
+    }
+
+    /// The number of ground actions with those that only repeat another's call, preconditions and effect.
+    pub fn op_count_with_duplicates(&self) -> usize {
+        self.ops_before_deduplication
+    }
+
+    /// The ground action as a step of a plan.
+    pub fn step(&self, id: OpId) -> Step {
+        let op = self.op(id);
+        self.schemas[op.schema].step(op.objects.clone())
+    }
+
+    /// The number of facts, reached or not.
+    pub fn fact_count(&self) -> usize {
+        self.facts.len()
+    }
+
+    /// The atom of a fact.
+    pub fn atom(&self, id: FactId) -> GroundAtom {
+        self.facts.atom(id)
+    }
+
+    /// The facts of the initial state, sorted by atom.
+    pub fn init(&self) -> &[FactId] {
+        &self.init
+    }
+
+    /// The reachable goal facts, sorted.
+    pub fn goal(&self) -> &[FactId] {
+        &self.goal
+    }
+
+    /// The goal as it was asked.
+    pub fn goal_atoms(&self) -> &[GroundAtom] {
+        &self.goal_atoms
+    }
+
+    /// GetUnreachableGoals: goal atoms that cannot be reached even if nothing is ever deleted, in the goal's order.
+    pub fn unreachable_goals(&self) -> &[GroundAtom] {
+        &self.unreachable
+    }
+
+    /// Whether the atom is reachable if nothing is ever deleted.
+    pub fn reaches(&self, atom: &GroundAtom) -> bool {
+        self.facts.find(atom).is_some_and(|fact| self.facts.is_reached(fact))
+    }
+
+    /// Every reachable fact, in the order in which it was numbered.
+    pub fn reached_facts(&self) -> impl Iterator<Item = FactId> + '_ {
+        (0..self.facts.len()).map(FactId::new).filter(|&fact| self.facts.is_reached(fact))
+    }
+}

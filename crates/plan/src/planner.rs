@@ -1,0 +1,110 @@
+//! From a model and a task to plans.
+
+use typelift_model::{ActionModel, Budget, GroundAtom, Task};
+
+use crate::Restrictions;
+use crate::explain::{Explanation, unreachable};
+use crate::ground::{Cut, GroundTask, TieOrder, ground};
+use crate::heuristic::OrderedLandmarks;
+use crate::landmark::landmark_sequences;
+use crate::search::{Outcome, Report, Search};
+use crate::successor::holds;
+
+/// How plans are looked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Options {
+    /// In which order successors are tried.
+    pub tie_order: TieOrder,
+    /// How many plans will be asked for: so many different ways to each node are kept. 1 is the plain search.
+    pub plans: usize,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { tie_order: TieOrder::SpecificFirst, plans: 1 }
+    }
+}
+
+/// A task being planned: grounded once, searched on demand.
+#[derive(Debug)]
+pub struct Planner {
+    model: ActionModel,
+    task: Task,
+    restrictions: Restrictions,
+    ground: GroundTask,
+    /// `None` if a goal is unreachable: there is nothing to search.
+    search: Option<Search>,
+}
+
+impl Planner {
+    /// Grounds the task and finds its landmarks.
+    ///
+    /// The model is taken as it is: whoever wants strict applicability or imagined actions rewrites it before.
+    ///
+    /// # Errors
+    /// [`Cut`] if the budget ends grounding.
+    pub fn new(
+        model: &ActionModel,
+        task: &Task,
+        restrictions: &Restrictions,
+        options: &Options,
+        budget: &Budget,
+    ) -> Result<Self, Cut> {
+        let ground = ground(model, task, restrictions, options.tie_order, budget)?;
+        let search = ground.unreachable_goals().is_empty().then(|| {
+            let heuristic = OrderedLandmarks::new(landmark_sequences(&ground));
+            Search::new(&ground, Box::new(heuristic), options.plans)
+        });
+        let (model, task, restrictions) = (model.clone(), task.clone(), restrictions.clone());
+        Ok(Self { model, task, restrictions, ground, search })
+    }
+
+    /// The next plan: one whose multiset of actions was not found before. The budget's expansions are for this call.
+    pub fn next_plan(&mut self, budget: &Budget) -> Outcome {
+        match &mut self.search {
+            None => Outcome::Unsolvable,
+            Some(search) => search.next(&self.ground, budget),
+        }
+    }
+
+    /// A plan cheaper than `cost`, from where the search stands; everything dearer is pruned from now on.
+    pub fn better_plan(&mut self, cost: u64, budget: &Budget) -> Outcome {
+        if let Some(search) = &mut self.search {
+            search.cost_bound = Some(cost);
+        }
+        self.next_plan(budget)
+    }
+
+    /// What was counted so far.
+    pub fn report(&self) -> Report {
+        self.search.as_ref().map_or_else(
+            || Report {
+                ground_actions: self.ground.op_count() as u64,
+                facts: self.ground.fact_count() as u64,
+                ..Report::default()
+            },
+            |search| search.report,
+        )
+    }
+
+    /// The grounded task.
+    pub fn ground_task(&self) -> &GroundTask {
+        &self.ground
+    }
+
+    /// The task as it was asked.
+    pub fn task(&self) -> &Task {
+        &self.task
+    }
+
+    /// Why no plan was found.
+    pub fn explain(&self) -> Explanation {
+        let Some(search) = &self.search else {
+            return Explanation::Unreachable(unreachable(&self.model, &self.task, &self.restrictions, &self.ground));
+        };
+        let missing = |state: &[u64]| -> Vec<GroundAtom> {
+            self.ground.goal().iter().filter(|&&fact| !holds(state, fact)).map(|&fact| self.ground.atom(fact)).collect()
+        };
+        Explanation::NotTogether { missing: search.closest_state().map(missing).unwrap_or_default() }
+    }
+}

@@ -1,0 +1,495 @@
+//! Relaxed reachability: which facts can become true, and which ground actions applicable, if nothing were ever
+//! deleted.
+//!
+//! Semi-naive evaluation: each fact, when it is first reached, is joined with the facts reached before it through
+//! the positive preconditions of every schema that mentions its predicate, always through the precondition with
+//! the fewest candidate facts under the bindings so far. The full product of objects is never formed; only
+//! parameters that no positive precondition mentions range over all objects of their type. Negative preconditions
+//! are ignored, as deletes are. An effect with a condition is reached when the positive part of it is.
+
+use typelift_model::{ActionModel, ActionSchema, Budget, GroundAtom, HashMap, LiftedAtom, Symbol, Task, Term, TypeId};
+
+use crate::Restrictions;
+use crate::ground::{Cut, FactId};
+
+/// An object of the task, by its place in name order; only this module's tables make them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(crate) struct ObjectId(u32);
+
+/// How often, in ground actions, the budget is asked whether to stop.
+const POLL_INTERVAL: usize = 1 << 12;
+
+/// Ground facts by number, with the order in which they were reached.
+#[derive(Debug, Default)]
+pub(crate) struct Facts {
+    pub(crate) objects: Vec<(Symbol, TypeId)>,
+    object_ids: HashMap<Symbol, ObjectId>,
+    predicate_ids: HashMap<Symbol, u32>,
+    predicates: Vec<Symbol>,
+    keys: Vec<(u32, Box<[ObjectId]>)>,
+    ids: HashMap<(u32, Box<[ObjectId]>), FactId>,
+    /// The order in which facts were reached; `u32::MAX` for those that never were.
+    pub(crate) reached_at: Vec<u32>,
+}
+
+impl Facts {
+    pub(crate) fn new(task: &Task) -> Self {
+        let objects: Vec<_> = task.init.objects.iter().map(|(name, ty)| (name.clone(), *ty)).collect();
+        let object_ids = objects.iter().zip(0..).map(|((name, _), i)| (name.clone(), ObjectId(i))).collect();
+        Self { objects, object_ids, ..Self::default() }
+    }
+
+    fn object_id(&self, name: &Symbol) -> Option<ObjectId> {
+        self.object_ids.get(name).copied()
+    }
+
+    fn predicate_id(&mut self, name: &Symbol) -> u32 {
+        if let Some(&id) = self.predicate_ids.get(name) {
+            return id;
+        }
+        let id = self.predicates.len() as u32;
+        self.predicates.push(name.clone());
+        self.predicate_ids.insert(name.clone(), id);
+        id
+    }
+
+    fn intern(&mut self, predicate: u32, args: Box<[ObjectId]>) -> FactId {
+        let key = (predicate, args);
+        if let Some(&id) = self.ids.get(&key) {
+            return id;
+        }
+        let id = FactId::new(self.keys.len());
+        self.keys.push(key.clone());
+        self.ids.insert(key, id);
+        self.reached_at.push(u32::MAX);
+        id
+    }
+
+    /// The number of a ground atom; `None` if it mentions an object that the task does not have.
+    pub(crate) fn intern_atom(&mut self, atom: &GroundAtom) -> Option<FactId> {
+        let args = atom.args.iter().map(|arg| self.object_id(arg)).collect::<Option<_>>()?;
+        let predicate = self.predicate_id(&atom.predicate);
+        Some(self.intern(predicate, args))
+    }
+
+    pub(crate) fn find(&self, atom: &GroundAtom) -> Option<FactId> {
+        let predicate = *self.predicate_ids.get(&atom.predicate)?;
+        let args = atom.args.iter().map(|arg| self.object_id(arg)).collect::<Option<_>>()?;
+        self.ids.get(&(predicate, args)).copied()
+    }
+
+    pub(crate) fn atom(&self, id: FactId) -> GroundAtom {
+        let (predicate, args) = &self.keys[id.index()];
+        GroundAtom {
+            predicate: self.predicates[*predicate as usize].clone(),
+            args: args.iter().map(|arg| self.name(*arg).clone()).collect(),
+        }
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.keys.len()
+    }
+
+    pub(crate) fn is_reached(&self, id: FactId) -> bool {
+        self.reached_at[id.index()] != u32::MAX
+    }
+
+    pub(crate) fn name(&self, object: ObjectId) -> &Symbol {
+        &self.objects[object.0 as usize].0
+    }
+}
+
+/// A ground action as reachability finds it.
+#[derive(Debug, Clone)]
+pub(crate) struct RawOp {
+    /// The schema's index in the model.
+    pub(crate) schema: usize,
+    pub(crate) objects: Box<[ObjectId]>,
+    pub(crate) preconditions: Vec<FactId>,
+    pub(crate) negative: Vec<FactId>,
+    pub(crate) effects: Vec<RawEffect>,
+}
+
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct RawEffect {
+    pub(crate) condition: Vec<FactId>,
+    pub(crate) negative_condition: Vec<FactId>,
+    pub(crate) fact: FactId,
+    pub(crate) adds: bool,
+}
+
+/// An atom pattern with interned names.
+#[derive(Debug, Clone)]
+struct Pattern {
+    predicate: u32,
+    args: Vec<Arg>,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Arg {
+    Param(usize),
+    Object(ObjectId),
+}
+
+/// A schema with interned names.
+struct Compiled<'a> {
+    index: usize,
+    schema: &'a ActionSchema,
+    preconditions: Vec<Pattern>,
+    negative: Vec<Pattern>,
+    effects: Vec<(Vec<Pattern>, Vec<Pattern>, Pattern, bool)>,
+    /// For each parameter, whether each object may take its place.
+    fits: Vec<Vec<bool>>,
+}
+
+/// Everything reachable.
+#[derive(Debug)]
+pub(crate) struct Reached {
+    pub(crate) facts: Facts,
+    pub(crate) ops: Vec<RawOp>,
+}
+
+/// The facts and ground actions reachable from the task's initial state without deletes.
+pub(crate) fn reach(
+    model: &ActionModel,
+    task: &Task,
+    restrictions: &Restrictions,
+    budget: &Budget,
+) -> Result<Reached, Cut> {
+    let mut facts = Facts::new(task);
+    let mut schemas = Vec::with_capacity(model.actions.len());
+    for (index, schema) in model.actions.iter().enumerate() {
+        if let Some(compiled) = compile(index, schema, model, restrictions, &mut facts) {
+            schemas.push(compiled);
+        }
+    }
+    let mut triggers: Vec<Vec<(usize, usize)>> = vec![Vec::new(); facts.predicates.len()];
+    for (s, schema) in schemas.iter().enumerate() {
+        for (k, pattern) in schema.preconditions.iter().enumerate() {
+            triggers[pattern.predicate as usize].push((s, k));
+        }
+    }
+    let mut join = Join {
+        restrictions,
+        budget,
+        facts,
+        ops: Vec::new(),
+        queue: Vec::new(),
+        by_predicate: HashMap::default(),
+        by_argument: HashMap::default(),
+        waiting: HashMap::default(),
+        pending: Vec::new(),
+        trigger: None,
+        bytes: 0,
+    };
+    for atom in &task.init.atoms {
+        if let Some(fact) = join.facts.intern_atom(atom) {
+            join.reach_fact(fact);
+        }
+    }
+    for schema in schemas.iter().filter(|s| s.preconditions.is_empty()) {
+        join.extend(schema, &mut vec![None; schema.schema.parameters.len()], &mut Vec::new())?;
+    }
+    let mut next = 0;
+    while next < join.queue.len() {
+        let fact = join.queue[next];
+        next += 1;
+        join.index(fact);
+        let predicate = join.facts.keys[fact.index()].0 as usize;
+        // Facts of predicates that no precondition mentions trigger nothing.
+        for &(s, k) in triggers.get(predicate).map_or(&[][..], Vec::as_slice) {
+            let schema = &schemas[s];
+            let mut binding = vec![None; schema.schema.parameters.len()];
+            if join.bind(schema, &schema.preconditions[k], fact, &mut binding).is_some() {
+                let mut open: Vec<(usize, bool)> =
+                    (0..schema.preconditions.len()).filter(|&j| j != k).map(|j| (j, j < k)).collect();
+                join.trigger = Some(fact);
+                join.extend(schema, &mut binding, &mut open)?;
+            }
+        }
+    }
+    Ok(Reached { facts: join.facts, ops: join.ops })
+}
+
+/// A schema with names interned; `None` if it mentions a constant that the task does not have.
+fn compile<'a>(
+    index: usize,
+    schema: &'a ActionSchema,
+    model: &ActionModel,
+    restrictions: &Restrictions,
+    facts: &mut Facts,
+) -> Option<Compiled<'a>> {
+    fn pattern(atom: &LiftedAtom, facts: &mut Facts) -> Option<Pattern> {
+        let args = atom.args.iter().map(|term| match term {
+            Term::Param(i) => Some(Arg::Param(*i as usize)),
+            Term::Const(name) => facts.object_id(name).map(Arg::Object),
+        });
+        let args = args.collect::<Option<_>>()?;
+        Some(Pattern { predicate: facts.predicate_id(&atom.predicate), args })
+    }
+    let (mut preconditions, mut negative) = (Vec::new(), Vec::new());
+    for literal in &schema.preconditions {
+        let list = if literal.positive { &mut preconditions } else { &mut negative };
+        list.push(pattern(&literal.atom, facts)?);
+    }
+    let mut effects = Vec::with_capacity(schema.effects.len());
+    for effect in &schema.effects {
+        let (mut condition, mut negative_condition) = (Vec::new(), Vec::new());
+        for literal in &effect.condition {
+            let list = if literal.positive { &mut condition } else { &mut negative_condition };
+            list.push(pattern(&literal.atom, facts)?);
+        }
+        effects.push((condition, negative_condition, pattern(&effect.literal.atom, facts)?, effect.literal.positive));
+    }
+    let fits = schema.parameters.iter().map(|parameter| {
+        let objects = facts.objects.iter();
+        objects
+            .map(|(name, ty)| model.hierarchy.is_a(*ty, parameter.ty) && restrictions.allows(name, &schema.call.name))
+            .collect()
+    });
+    let fits = fits.collect();
+    Some(Compiled { index, schema, preconditions, negative, effects, fits })
+}
+
+/// An effect whose condition is not reached yet.
+struct Pending {
+    missing: usize,
+    fact: FactId,
+}
+
+struct Join<'a> {
+    restrictions: &'a Restrictions,
+    budget: &'a Budget,
+    facts: Facts,
+    ops: Vec<RawOp>,
+    /// Reached facts, in the order in which they were reached.
+    queue: Vec<FactId>,
+    by_predicate: HashMap<u32, Vec<FactId>>,
+    by_argument: HashMap<(u32, usize, ObjectId), Vec<FactId>>,
+    /// Which pending effects wait for a fact.
+    waiting: HashMap<FactId, Vec<usize>>,
+    pending: Vec<Pending>,
+    /// The fact being joined: preconditions before the one it came through may not match it again.
+    trigger: Option<FactId>,
+    bytes: u64,
+}
+
+impl Join<'_> {
+    fn reach_fact(&mut self, fact: FactId) {
+        let mut stack = vec![fact];
+        while let Some(fact) = stack.pop() {
+            if self.facts.is_reached(fact) {
+                continue;
+            }
+            self.facts.reached_at[fact.index()] = self.queue.len() as u32;
+            self.queue.push(fact);
+            for waiting in self.waiting.remove(&fact).unwrap_or_default() {
+                let pending = &mut self.pending[waiting];
+                pending.missing -= 1;
+                if pending.missing == 0 {
+                    stack.push(pending.fact);
+                }
+            }
+        }
+    }
+
+    fn index(&mut self, fact: FactId) {
+        let (predicate, args) = &self.facts.keys[fact.index()];
+        self.by_predicate.entry(*predicate).or_default().push(fact);
+        for (position, object) in args.iter().enumerate() {
+            self.by_argument.entry((*predicate, position, *object)).or_default().push(fact);
+        }
+    }
+
+    /// Matches a pattern with a fact under a binding; the parameters newly bound, or `None` with the binding
+    /// unchanged.
+    fn bind(
+        &self,
+        schema: &Compiled<'_>,
+        pattern: &Pattern,
+        fact: FactId,
+        binding: &mut [Option<ObjectId>],
+    ) -> Option<Vec<usize>> {
+        let args = &self.facts.keys[fact.index()].1;
+        let mut bound = Vec::new();
+        if args.len() != pattern.args.len() {
+            return None;
+        }
+        for (arg, &object) in pattern.args.iter().zip(args) {
+            let matches = match *arg {
+                Arg::Object(constant) => constant == object,
+                Arg::Param(p) => match binding[p] {
+                    Some(known) => known == object,
+                    None if self.may_take(schema, p, object, binding) => {
+                        binding[p] = Some(object);
+                        bound.push(p);
+                        true
+                    }
+                    None => false,
+                },
+            };
+            if !matches {
+                for p in bound {
+                    binding[p] = None;
+                }
+                return None;
+            }
+        }
+        Some(bound)
+    }
+
+    fn may_take(
+        &self,
+        schema: &Compiled<'_>,
+        parameter: usize,
+        object: ObjectId,
+        binding: &[Option<ObjectId>],
+    ) -> bool {
+        schema.fits[parameter][object.0 as usize]
+            && schema.schema.distinct.iter().all(|&(a, b)| {
+                let (a, b) = (a as usize, b as usize);
+                !(a == parameter && binding[b] == Some(object) || b == parameter && binding[a] == Some(object))
+            })
+    }
+
+    /// The shortest list of facts that holds every match of a pattern.
+    fn candidates(&self, pattern: &Pattern, binding: &[Option<ObjectId>]) -> &[FactId] {
+        let mut best = self.by_predicate.get(&pattern.predicate).map_or(&[][..], Vec::as_slice);
+        for (position, arg) in pattern.args.iter().enumerate() {
+            let object = match *arg {
+                Arg::Object(object) => Some(object),
+                Arg::Param(p) => binding[p],
+            };
+            if let Some(object) = object {
+                let list = self.by_argument.get(&(pattern.predicate, position, object));
+                let list = list.map_or(&[][..], Vec::as_slice);
+                if list.len() < best.len() {
+                    best = list;
+                }
+            }
+        }
+        best
+    }
+
+    /// Completes a binding in every way through the open preconditions (each with whether it must not match the
+    /// trigger), then through parameters that none mentions.
+    fn extend(
+        &mut self,
+        schema: &Compiled<'_>,
+        binding: &mut Vec<Option<ObjectId>>,
+        open: &mut Vec<(usize, bool)>,
+    ) -> Result<(), Cut> {
+        let best = (0..open.len()).min_by_key(|&i| self.candidates(&schema.preconditions[open[i].0], binding).len());
+        let Some(best) = best else { return self.complete(schema, binding) };
+        let (k, older) = open.swap_remove(best);
+        let pattern = &schema.preconditions[k];
+        for fact in self.candidates(pattern, binding).to_vec() {
+            if older && self.trigger == Some(fact) {
+                continue;
+            }
+            if let Some(bound) = self.bind(schema, pattern, fact, binding) {
+                self.extend(schema, binding, open)?;
+                for p in bound {
+                    binding[p] = None;
+                }
+            }
+        }
+        open.push((k, older));
+        let last = open.len() - 1;
+        open.swap(best, last);
+        Ok(())
+    }
+
+    fn complete(&mut self, schema: &Compiled<'_>, binding: &mut Vec<Option<ObjectId>>) -> Result<(), Cut> {
+        let Some(free) = binding.iter().position(Option::is_none) else { return self.emit(schema, binding) };
+        for object in (0..self.facts.objects.len() as u32).map(ObjectId) {
+            if self.may_take(schema, free, object, binding) {
+                binding[free] = Some(object);
+                self.complete(schema, binding)?;
+                binding[free] = None;
+            }
+        }
+        Ok(())
+    }
+
+    fn emit(&mut self, schema: &Compiled<'_>, binding: &[Option<ObjectId>]) -> Result<(), Cut> {
+        let objects: Box<[ObjectId]> = binding.iter().copied().flatten().collect();
+        let fact = |pattern: &Pattern, facts: &mut Facts| {
+            let args = pattern.args.iter().map(|arg| match *arg {
+                Arg::Object(object) => object,
+                Arg::Param(p) => objects[p],
+            });
+            facts.intern(pattern.predicate, args.collect())
+        };
+        let facts = &mut self.facts;
+        let mut all = |patterns: &[Pattern]| patterns.iter().map(|p| fact(p, facts)).collect::<Vec<_>>();
+        let preconditions = all(&schema.preconditions);
+        let negative = all(&schema.negative);
+        let mut effects: Vec<RawEffect> = schema
+            .effects
+            .iter()
+            .map(|(condition, negative_condition, pattern, adds)| RawEffect {
+                condition: all(condition),
+                negative_condition: all(negative_condition),
+                fact: all(std::slice::from_ref(pattern))[0],
+                adds: *adds,
+            })
+            .collect();
+        effects.sort_unstable();
+        let op = RawOp { schema: schema.index, objects, preconditions, negative, effects };
+        if self.is_banned(schema.schema, &op) {
+            return Ok(());
+        }
+        for effect in op.effects.iter().filter(|effect| effect.adds) {
+            let missing: Vec<FactId> =
+                effect.condition.iter().copied().filter(|&c| !self.facts.is_reached(c)).collect();
+            if missing.is_empty() {
+                self.reach_fact(effect.fact);
+            } else {
+                for &condition in &missing {
+                    self.waiting.entry(condition).or_default().push(self.pending.len());
+                }
+                self.pending.push(Pending { missing: missing.len(), fact: effect.fact });
+            }
+        }
+        self.bytes += op.bytes();
+        self.ops.push(op);
+        if self.budget.bytes.is_some_and(|limit| self.bytes > limit) {
+            return Err(Cut::OutOfMemory);
+        }
+        if self.ops.len().is_multiple_of(POLL_INTERVAL)
+            && let Some(stop) = self.budget.stopped()
+        {
+            return Err(Cut::Stopped(stop));
+        }
+        Ok(())
+    }
+
+    fn is_banned(&self, schema: &ActionSchema, op: &RawOp) -> bool {
+        if self.restrictions.banned.is_empty() {
+            return false;
+        }
+        let objects: Vec<Symbol> = op.objects.iter().map(|&o| self.facts.name(o).clone()).collect();
+        let args = || schema.call.args.iter().map(|term| term.object(&objects));
+        self.restrictions.banned.iter().any(|ban| {
+            let atoms = |adds: bool| {
+                let mut atoms: Vec<GroundAtom> =
+                    op.effects.iter().filter(|e| e.adds == adds).map(|e| self.facts.atom(e.fact)).collect();
+                atoms.sort_unstable();
+                atoms
+            };
+            ban.call.name == schema.call.name
+                && args().eq(ban.call.args.iter().cloned())
+                && atoms(true) == ban.adds
+                && atoms(false) == ban.deletes
+        })
+    }
+}
+
+impl RawOp {
+    /// Bytes it holds, roughly.
+    fn bytes(&self) -> u64 {
+        let lists = self.objects.len() + self.preconditions.len() + self.negative.len() + 12 * self.effects.len();
+        (lists * 4 + std::mem::size_of::<Self>()) as u64
+    }
+}

@@ -1,0 +1,128 @@
+//! Reading many demonstrations against one hierarchy.
+
+use std::fs::File;
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
+
+use typelift_model::{Hierarchy, ParseConfig};
+
+use crate::object_types::files_of;
+use crate::{Dataset, FileError, ObjectTypes, Parser, Trace, read_trace, read_trajectory};
+
+/// Reads a trace or a trajectory, which of the two being told from its first character.
+///
+/// # Errors
+/// [`FileError`] as for [`read_trace`] and [`read_trajectory`].
+pub fn read_any_trace(path: &Path, types: &ObjectTypes, parser: &mut Parser) -> Result<Trace, FileError> {
+    let io = |e: std::io::Error| FileError::from_io(path, &e);
+    let mut input = BufReader::new(File::open(path).map_err(io)?);
+    loop {
+        let bytes = input.fill_buf().map_err(io)?;
+        if bytes.is_empty() {
+            return Err(FileError::new(path, "the file is empty"));
+        }
+        let without_mark = bytes.strip_prefix("\u{FEFF}".as_bytes()).unwrap_or(bytes);
+        match without_mark.iter().find(|b| !b.is_ascii_whitespace()) {
+            Some(b'(' | b';') => return read_trajectory(path, types, parser),
+            Some(_) => return read_trace(path, parser),
+            None => {
+                let blank = bytes.len();
+                input.consume(blank);
+            }
+        }
+    }
+}
+
+/// Reads demonstrations with one parser, so that a predicate means the same in all of them. Of a folder, the files
+/// that end in `.jsonl`, `.trajectory` or `_traj` are read, sorted by name.
+///
+/// # Errors
+/// [`FileError`] as for [`read_any_trace`], and if there are no demonstrations.
+pub fn read_dataset(
+    paths: &[PathBuf],
+    hierarchy: Hierarchy,
+    parse: ParseConfig,
+    types: &ObjectTypes,
+) -> Result<Dataset, FileError> {
+    let mut parser = Parser::new(hierarchy, parse);
+    let mut traces = Vec::new();
+    for path in paths {
+        if !path.is_dir() {
+            traces.push(read_any_trace(path, types, &mut parser)?);
+            continue;
+        }
+        let endings = [".jsonl", ".trajectory", "_traj"];
+        let files = files_of(path, |name| endings.iter().any(|ending| name.ends_with(ending)))?;
+        if files.is_empty() {
+            let what = "there are no traces (.jsonl) or trajectories (.trajectory) in this folder";
+            return Err(FileError::new(path, what));
+        }
+        for file in files {
+            traces.push(read_any_trace(&file, types, &mut parser)?);
+        }
+    }
+    if traces.is_empty() {
+        return Err(FileError::new(Path::new(""), "no traces"));
+    }
+    Ok(Dataset {
+        hierarchy: parser.hierarchy().clone(),
+        parse: parser.config().clone(),
+        predicates: parser.predicates(),
+        traces,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TRACE: &str = concat!(
+        "{\"format\":\"trace/1\",\"task\":\"t\",\"goal\":[]}\n",
+        "{\"state\":{\"objects\":{\"a\":\"block\"},\"atoms\":[\"free(a)\"]}}\n"
+    );
+
+    fn read(files: &[(&str, &str)], paths: &[&str]) -> Result<Dataset, String> {
+        let folder = tempfile::tempdir().expect("a folder");
+        for (name, text) in files {
+            crate::write_file(&folder.path().join(name), text.as_bytes()).expect("written");
+        }
+        let list = folder.path().join("objects");
+        crate::write_file(&list, b"(:objects a b - block)").expect("written");
+        let types = ObjectTypes::from_file(&list).expect("types");
+        let hierarchy = Hierarchy::from_edges([("block", "object")]).expect("a tree");
+        let paths: Vec<PathBuf> = paths.iter().map(|path| folder.path().join(path)).collect();
+        let shown = format!("{}/", folder.path().display());
+        read_dataset(&paths, hierarchy, ParseConfig::default(), &types).map_err(|e| e.to_string().replace(&shown, ""))
+    }
+
+    #[test]
+    fn folders_and_files_of_both_kinds() {
+        let files = [("b.jsonl", TRACE), ("a.trajectory", "\n; SAM\n((:init (on a b)))"), ("notes.txt", "x")];
+        let dataset = read(&files, &["", "b.jsonl"]).expect("a dataset");
+        let names: Vec<&str> = dataset.traces.iter().filter_map(|t| Some(t.file.as_ref()?.as_str())).collect();
+        assert_eq!(names, ["a.trajectory", "b.jsonl", "b.jsonl"]);
+        let predicates: Vec<(&str, usize)> = dataset.predicates.iter().map(|(p, n)| (p.as_str(), *n)).collect();
+        assert_eq!(predicates, [("free", 1), ("on", 2)]);
+    }
+
+    #[test]
+    fn a_predicate_means_the_same_in_all_files() {
+        let files = [("a.trajectory", "((:init (free a b)))"), ("b.jsonl", TRACE)];
+        assert_eq!(
+            read(&files, &[""]).expect_err("two meanings"),
+            "b.jsonl:2: the predicate `free` is used with 2 and with 1 arguments"
+        );
+    }
+
+    #[test]
+    fn nothing_to_read_is_an_error() {
+        assert_eq!(read(&[], &[]).expect_err("nothing"), "no traces");
+        let error = read(&[], &[""]).expect_err("an empty folder");
+        assert!(
+            error.ends_with("there are no traces (.jsonl) or trajectories (.trajectory) in this folder"),
+            "{error}"
+        );
+        assert_eq!(read(&[("a.jsonl", " \n")], &["a.jsonl"]).expect_err("blank"), "a.jsonl: the file is empty");
+        assert_eq!(read(&[], &["a.jsonl"]).expect_err("missing"), "a.jsonl: there is no such file");
+    }
+}

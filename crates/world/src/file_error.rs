@@ -1,0 +1,133 @@
+//! What is wrong with a file, and where: one error for all readers.
+
+use std::io;
+use std::path::Path;
+
+use thiserror::Error;
+use typelift_model::Hierarchy;
+use typelift_pddl::PddlError;
+
+use crate::similar::did_you_mean;
+use crate::{ParseError, ParseErrorKind, json};
+
+/// Why a file could not be read or written. Shown as `demos/a.jsonl:14: …`.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{}{what}", self.place())]
+pub struct FileError {
+    /// What is wrong.
+    pub what: String,
+    /// The file, as it was named; empty if there is none.
+    pub file: String,
+    /// The line, from 1, where it is known.
+    pub line: Option<u32>,
+    /// The column, from 1, where it is known.
+    pub column: Option<u32>,
+    /// What to do about it.
+    pub hint: Option<String>,
+    /// The lines concerned, marked, where that helps.
+    pub excerpt: Option<String>,
+    /// Whether the file is right, but uses something that is not supported.
+    pub unsupported: bool,
+}
+
+fn number(n: usize) -> u32 {
+    u32::try_from(n).unwrap_or(u32::MAX)
+}
+
+impl FileError {
+    /// An error about a file as a whole.
+    pub fn new(file: &Path, what: impl Into<String>) -> Self {
+        Self {
+            what: what.into(),
+            file: file.display().to_string(),
+            line: None,
+            column: None,
+            hint: None,
+            excerpt: None,
+            unsupported: false,
+        }
+    }
+
+    /// An error about a line of a file.
+    pub fn at_line(file: &Path, line: usize, what: impl Into<String>) -> Self {
+        Self { line: Some(number(line)), ..Self::new(file, what) }
+    }
+
+    /// With the column in its line.
+    #[must_use]
+    pub fn with_column(mut self, column: usize) -> Self {
+        self.column = Some(number(column));
+        self
+    }
+
+    /// With advice, if there is any.
+    #[must_use]
+    pub fn with_hint(mut self, hint: impl Into<Option<String>>) -> Self {
+        self.hint = hint.into();
+        self
+    }
+
+    /// An error of the operating system.
+    pub fn from_io(file: &Path, error: &io::Error) -> Self {
+        Self::new(
+            file,
+            match error.kind() {
+                io::ErrorKind::NotFound => "there is no such file".to_owned(),
+                io::ErrorKind::IsADirectory => "this is a folder, not a file".to_owned(),
+                io::ErrorKind::PermissionDenied => "access is not permitted".to_owned(),
+                _ => error.to_string(),
+            },
+        )
+    }
+
+    /// An error of PDDL text, with its lines.
+    pub fn from_pddl(file: &Path, text: &str, error: PddlError) -> Self {
+        Self {
+            excerpt: Some(error.excerpt(text)),
+            unsupported: error.unsupported,
+            ..Self::at_line(file, error.position.line, error.message)
+                .with_column(error.position.column)
+                .with_hint(error.hint)
+        }
+    }
+
+    /// An error of JSON text whose first line is line `first` of the file.
+    pub fn from_json(file: &Path, first: usize, error: &serde_json::Error) -> Self {
+        let line = first + error.line().max(1) - 1;
+        let at = Self::at_line(file, line, json::message(error));
+        if error.column() > 0 { at.with_column(error.column()) } else { at }
+    }
+
+    /// An error of the scene that starts in `line`.
+    pub fn from_parse(file: &Path, line: Option<usize>, error: &ParseError, hierarchy: &Hierarchy) -> Self {
+        let hint = match &error.kind {
+            ParseErrorKind::UnknownType { ty, .. } => {
+                let names = hierarchy.types().map(|t| hierarchy.name(t));
+                Some(match did_you_mean(ty.as_str(), names) {
+                    Some(question) => format!("{question} Otherwise add it to the hierarchy."),
+                    None => "Add it to the hierarchy.".to_owned(),
+                })
+            }
+            ParseErrorKind::TwoSources { .. } => Some("Rename one of the two, or ignore it.".to_owned()),
+            _ => None,
+        };
+        Self { line: line.map(number), ..Self::new(file, error.to_string()) }.with_hint(hint)
+    }
+
+    /// `file:line:column: `, as far as they are known.
+    pub fn place(&self) -> String {
+        if self.file.is_empty() {
+            return String::new();
+        }
+        let numbers = [self.line, self.column].into_iter().flatten().map(|n| format!(":{n}"));
+        format!("{}{}: ", self.file, numbers.collect::<String>())
+    }
+
+    /// The error with the lines concerned, without the hint.
+    pub fn render(&self) -> String {
+        match &self.excerpt {
+            Some(excerpt) => format!("{self}\n{excerpt}"),
+            None => self.to_string(),
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! Hierarchy files: a PDDL `(:types …)` block, a whole domain, or JSON `{"child": "parent"}`.
+
+use std::path::{Path, PathBuf};
+
+use typelift_model::{Hierarchy, Symbol};
+use typelift_pddl::{Span, TypeEdge, hierarchy_from_types};
+
+use crate::{FileError, json, read_text};
+
+/// The types that a file declares, with their places in it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TypesFile {
+    path: PathBuf,
+    text: String,
+    edges: Vec<TypeEdge>,
+}
+
+impl TypesFile {
+    /// Each type with its parent, in the order of the file.
+    pub fn edges(&self) -> &[TypeEdge] {
+        &self.edges
+    }
+
+    /// `base` with these types.
+    ///
+    /// # Errors
+    /// [`FileError`] at the declarations that contradict each other or `base`.
+    pub fn extend(&self, base: &Hierarchy) -> Result<Hierarchy, FileError> {
+        hierarchy_from_types(base, &self.text, &self.edges)
+            .map_err(|error| FileError::from_pddl(&self.path, &self.text, error))
+    }
+}
+
+/// Reads a hierarchy file, which kind it is being told from its content.
+///
+/// # Errors
+/// [`FileError`] if it is neither kind, or at the declarations that do not form a tree.
+pub fn read_hierarchy(path: &Path) -> Result<Hierarchy, FileError> {
+    read_types(path)?.extend(&Hierarchy::default())
+}
+
+/// Reads the types that a hierarchy file declares, to add them to a hierarchy.
+///
+/// # Errors
+/// [`FileError`] if it is not a hierarchy file.
+pub fn read_types(path: &Path) -> Result<TypesFile, FileError> {
+    let text = read_text(path)?;
+    let edges = match text.trim_start().chars().next() {
+        None => return Err(FileError::new(path, "the file is empty")),
+        Some('{') => json_types(path, &text)?,
+        Some('(' | ';') => {
+            typelift_pddl::read_types(&text).map_err(|error| FileError::from_pddl(path, &text, error))?
+        }
+        Some(_) => {
+            let what = "this is neither PDDL types nor a JSON object of types";
+            return Err(FileError::new(path, what).with_hint(EXAMPLE.to_owned()));
+        }
+    };
+    Ok(TypesFile { path: path.to_owned(), text, edges })
+}
+
+const EXAMPLE: &str = "Write `(:types apple leek - food)` or `{\"apple\": \"food\", \"leek\": \"food\"}`.";
+
+fn json_types(path: &Path, text: &str) -> Result<Vec<TypeEdge>, FileError> {
+    // The reader of JSON keeps no places and the last of two equal keys; so it only checks the form. In an object
+    // whose values are strings, every other string is a key.
+    #[derive(serde::Deserialize)]
+    #[serde(transparent)]
+    struct Pairs(#[serde(deserialize_with = "json::pairs")] Vec<(Symbol, Symbol)>);
+    let Pairs(pairs) = serde_json::from_str(text)
+        .map_err(|error| FileError::from_json(path, 1, &error).with_hint(EXAMPLE.to_owned()))?;
+    let keys = string_spans(text).into_iter().step_by(2);
+    Ok(pairs.into_iter().zip(keys).map(|((child, parent), span)| TypeEdge { child, parent, span }).collect())
+}
+
+/// The bytes between the quotes of each string of a JSON text.
+fn string_spans(text: &str) -> Vec<Span> {
+    let bytes = text.as_bytes();
+    let mut spans = Vec::new();
+    let mut start = None;
+    let mut at = 0;
+    while at < bytes.len() {
+        match (bytes[at], start) {
+            (b'\\', Some(_)) => at += 1,
+            (b'"', None) => start = Some(at + 1),
+            (b'"', Some(from)) => {
+                spans.push(Span { start: from, end: at });
+                start = None;
+            }
+            _ => {}
+        }
+        at += 1;
+    }
+    spans
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Result<Hierarchy, FileError> {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("types");
+        crate::write_file(&path, text.as_bytes()).expect("written");
+        read_hierarchy(&path).map_err(|error| FileError { file: "types".to_owned(), ..error })
+    }
+
+    fn edges(text: &str) -> Vec<String> {
+        read(text).expect(text).edges().map(|(child, parent)| format!("{child}<{parent}")).collect()
+    }
+
+    #[test]
+    fn the_kind_is_told_from_the_content() {
+        let expected = ["food<object", "apple<food"];
+        assert_eq!(edges("(:types apple - food)"), expected);
+        assert_eq!(edges("; types\n(define (domain d) (:types apple - food))"), expected);
+        assert_eq!(edges("\n {\"apple\": \"food\"}"), expected);
+        assert_eq!(edges(r#"{"a\"\\": "b", "c": "a\"\\"}"#), ["b<object", "a\"\\<b", "c<a\"\\"]);
+    }
+
+    #[test]
+    fn a_duplicate_key_is_a_second_parent() {
+        let error = read("{\n  \"a\": \"b\",\n  \"a\": \"c\"\n}").expect_err("two parents");
+        assert_eq!(
+            error.render(),
+            "types:3:4: type `a` has two parents, `b` and `c`\n  |\n2 |   \"a\": \"b\",\n  |    - first declared below `b` here\n\
+             3 |   \"a\": \"c\"\n  |    ^\n"
+        );
+        assert!(read(r#"{"a": "b", "a": "b"}"#).is_ok());
+    }
+
+    #[test]
+    fn what_is_refused() {
+        for (text, message) in [
+            ("", "types: the file is empty"),
+            ("apple - food", "types: this is neither PDDL types nor a JSON object of types"),
+            ("{\"a\": \"b\",\n\"b\": \"a\"}", "types:2:2: the type hierarchy has a cycle: a - b - a"),
+            ("{\"a\": 1}", "types:1:7: invalid type: integer `1`, expected a string"),
+            ("{\"a\": \"b\"", "types:1:9: the JSON text ends too early"),
+            ("(:types a - b\n a - c)", "types:2:2: type `a` has two parents, `b` and `c`"),
+            ("(:types a", "types:1:1: this `(` is never closed"),
+            (
+                "{\"object\": \"b\"}",
+                "types:1:3: `object` is the root of every hierarchy and cannot have the parent `b`",
+            ),
+        ] {
+            assert_eq!(read(text).expect_err(text).to_string(), message);
+        }
+    }
+}

@@ -1,0 +1,196 @@
+//! Task files, format `task/1`: a goal with the state to start from, or with what an environment is to set up.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+use typelift_model::{GroundAtom, State, Symbol, Task};
+
+use crate::trace_line::{FormatLine, SceneLine};
+use crate::{FileError, ParseError, Parser, Scene, read_text, write_file};
+
+/// The format that this version reads and writes.
+pub const TASK_FORMAT: &str = "task/1";
+
+/// What is to be achieved, and from where.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct TaskFile {
+    /// The atoms that must hold in the end.
+    pub goal: Vec<GroundAtom>,
+    /// The state to start from.
+    pub state: Option<Scene>,
+    /// What the environment is to set up, in its own terms.
+    pub scenario: Option<serde_json::Value>,
+    /// The seed of whatever the environment leaves to chance.
+    pub seed: Option<u64>,
+}
+
+/// Why a goal is not one for this model and state.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum TaskError {
+    /// There is no state.
+    #[error("the task has no `state` to plan from")]
+    NoState,
+    /// The state is not one.
+    #[error("in the state: {0}")]
+    State(ParseError),
+    /// A predicate that the model does not know.
+    #[error("in the goal {atom}: the model has no predicate `{}`", .atom.predicate)]
+    UnknownPredicate {
+        /// The goal atom.
+        atom: GroundAtom,
+        /// The predicate that may have been meant.
+        near: Option<Symbol>,
+    },
+    /// A predicate with another number of arguments.
+    #[error("in the goal {atom}: `{}` takes {expected} arguments, not {}", .atom.predicate, .atom.arity())]
+    Arity {
+        /// The goal atom.
+        atom: GroundAtom,
+        /// The predicate's number of arguments.
+        expected: usize,
+    },
+    /// An object that the state does not have.
+    #[error("in the goal {atom}: there is no `{object}` in the state")]
+    UnknownObject {
+        /// The goal atom.
+        atom: GroundAtom,
+        /// The object.
+        object: Symbol,
+        /// The object that may have been meant.
+        near: Option<Symbol>,
+    },
+}
+
+impl TaskError {
+    /// What to do about it, if that is known.
+    pub fn hint(&self) -> Option<String> {
+        match self {
+            Self::UnknownPredicate { near, .. } | Self::UnknownObject { near, .. } => {
+                near.as_ref().map(|name| format!("Did you mean `{name}`?"))
+            }
+            Self::NoState => Some("Give it a `state`, or run it in an environment.".to_owned()),
+            Self::State(_) | Self::Arity { .. } => None,
+        }
+    }
+
+    /// The error as one about a file.
+    pub fn in_file(&self, path: &Path, parser: &Parser) -> FileError {
+        let error = FileError::new(path, self.to_string());
+        match self {
+            Self::State(cause) => {
+                FileError { hint: FileError::from_parse(path, None, cause, parser.hierarchy()).hint, ..error }
+            }
+            _ => error.with_hint(self.hint()),
+        }
+    }
+}
+
+/// Checks that every goal atom is over known predicates and over objects of the state.
+///
+/// # Errors
+/// [`TaskError`] for the first that is not.
+pub fn check_goal(goal: &[GroundAtom], state: &State, predicates: &BTreeMap<Symbol, usize>) -> Result<(), TaskError> {
+    for atom in goal {
+        match predicates.get(&atom.predicate) {
+            Some(&expected) if expected != atom.arity() => {
+                return Err(TaskError::Arity { atom: atom.clone(), expected });
+            }
+            Some(_) => {}
+            None => {
+                let near = crate::nearest(atom.predicate.as_str(), predicates.keys()).cloned();
+                return Err(TaskError::UnknownPredicate { atom: atom.clone(), near });
+            }
+        }
+        if let Some(object) = atom.args.iter().find(|arg| !state.objects.contains_key(*arg)) {
+            let near = crate::nearest(object.as_str(), state.objects.keys()).cloned();
+            return Err(TaskError::UnknownObject { atom: atom.clone(), object: object.clone(), near });
+        }
+    }
+    Ok(())
+}
+
+impl TaskFile {
+    /// The planning task, if there is a state, checked against the model's predicates.
+    ///
+    /// # Errors
+    /// [`TaskError`] if there is no state, or goal and state do not fit each other or the model.
+    pub fn task(&self, parser: &mut Parser, predicates: &BTreeMap<Symbol, usize>) -> Result<Task, TaskError> {
+        let scene = self.state.as_ref().ok_or(TaskError::NoState)?;
+        let init = parser.parse(scene).map_err(TaskError::State)?;
+        check_goal(&self.goal, &init, predicates)?;
+        Ok(Task { init, goal: self.goal.clone() })
+    }
+
+    /// The task as JSON text, ending in a line feed.
+    pub fn to_json(&self) -> String {
+        let written = WrittenTask {
+            format: TASK_FORMAT.to_owned(),
+            goal: &self.goal,
+            state: self.state.as_ref(),
+            scenario: self.scenario.as_ref(),
+            seed: self.seed,
+        };
+        // Every part is made of what JSON can hold.
+        let mut text = serde_json::to_string_pretty(&written).unwrap_or_default();
+        text.push('\n');
+        text
+    }
+}
+
+#[derive(Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+struct WrittenTask<'a> {
+    format: String,
+    goal: &'a [GroundAtom],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    state: Option<&'a Scene>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    scenario: Option<&'a serde_json::Value>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    seed: Option<u64>,
+}
+
+#[derive(Deserialize)]
+struct ReadTask {
+    goal: Vec<GroundAtom>,
+    state: Option<SceneLine>,
+    scenario: Option<serde_json::Value>,
+    seed: Option<u64>,
+}
+
+/// Reads a task file.
+///
+/// # Errors
+/// [`FileError`] if it is not one, or is of another version.
+pub fn read_task(path: &Path) -> Result<TaskFile, FileError> {
+    let text = read_text(path)?;
+    if text.trim().is_empty() {
+        return Err(FileError::new(path, "the file is empty"));
+    }
+    let json = |error: serde_json::Error| FileError::from_json(path, 1, &error);
+    let FormatLine { format } = serde_json::from_str(&text).map_err(json)?;
+    match format {
+        None => {
+            let what = format!("there is no \"format\":\"{TASK_FORMAT}\": this is not a task file");
+            return Err(FileError::new(path, what));
+        }
+        Some(found) if found != TASK_FORMAT => {
+            let what = format!("this is a file of format `{found}`; this version of typelift reads `{TASK_FORMAT}`");
+            return Err(FileError::new(path, what));
+        }
+        Some(_) => {}
+    }
+    let ReadTask { goal, state, scenario, seed } = serde_json::from_str(&text).map_err(json)?;
+    let state = state.map(SceneLine::scene).transpose().map_err(|what| FileError::new(path, what))?;
+    Ok(TaskFile { goal, state, scenario, seed })
+}
+
+/// Writes a task file.
+///
+/// # Errors
+/// [`FileError`] if that fails.
+pub fn write_task(path: &Path, task: &TaskFile) -> Result<(), FileError> {
+    write_file(path, task.to_json().as_bytes())
+}

@@ -1,0 +1,143 @@
+//! Reading a file as text, and writing one so that it is never half written.
+
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use crate::FileError;
+
+/// Reads a file as UTF-8; a byte order mark at its start is dropped.
+///
+/// # Errors
+/// [`FileError`] if it cannot be read, or at the first byte that is not UTF-8.
+pub fn read_text(path: &Path) -> Result<String, FileError> {
+    let bytes = fs::read(path).map_err(|e| FileError::from_io(path, &e))?;
+    let mut text = String::from_utf8(bytes).map_err(|error| {
+        let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let line = 1 + valid.iter().filter(|&&b| b == b'\n').count();
+        let line_start = valid.iter().rposition(|&b| b == b'\n').map_or(0, |at| at + 1);
+        not_utf8(path, line, valid.len() - line_start)
+    })?;
+    if text.starts_with('\u{FEFF}') {
+        text.drain(..'\u{FEFF}'.len_utf8());
+    }
+    Ok(text)
+}
+
+/// The error about a line that is UTF-8 only up to the byte at `offset`.
+pub(crate) fn not_utf8(path: &Path, line: usize, offset: usize) -> FileError {
+    FileError::at_line(path, line, format!("this is not UTF-8 text from byte {} of the line on", offset + 1))
+        .with_column(offset + 1)
+}
+
+/// Writes a file in one go: whoever reads it sees the old content or the new, never a part. What is not a regular
+/// file, as a pipe or a terminal, is written to directly.
+///
+/// # Errors
+/// [`FileError`] if that fails; nothing is left behind then.
+pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
+    replace(path, bytes).map_err(|error| match error.kind() {
+        io::ErrorKind::NotFound => FileError::new(path, "there is no such folder to write to"),
+        _ => FileError::from_io(path, &error),
+    })
+}
+
+fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    // A link stays a link: what it leads to is replaced.
+    let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let existing = fs::metadata(&target).ok();
+    if existing.as_ref().is_some_and(|data| !data.is_file()) {
+        return OpenOptions::new().write(true).open(&target)?.write_all(bytes);
+    }
+    let (temporary, mut file) = create_beside(&target)?;
+    let written = file.write_all(bytes).and_then(|()| match existing {
+        Some(data) => file.set_permissions(data.permissions()),
+        None => Ok(()),
+    });
+    let done = written.and_then(|()| file.sync_all()).and_then(|()| fs::rename(&temporary, &target));
+    if done.is_err() {
+        // The first error is the one to report.
+        let _ = fs::remove_file(&temporary);
+    }
+    done
+}
+
+/// A new file in the folder of `target`.
+fn create_beside(target: &Path) -> io::Result<(PathBuf, File)> {
+    let Some(name) = target.file_name() else {
+        return Err(io::Error::other("this names no file"));
+    };
+    let mut attempt = 0_u32;
+    loop {
+        let mut hidden = std::ffi::OsString::from(".");
+        hidden.push(name);
+        hidden.push(format!(".{}-{attempt}.tmp", std::process::id()));
+        let path = target.with_file_name(hidden);
+        match OpenOptions::new().write(true).create_new(true).open(&path) {
+            Ok(file) => return Ok((path, file)),
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists && attempt < 1000 => attempt += 1,
+            Err(error) => return Err(error),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn entries(folder: &Path) -> usize {
+        fs::read_dir(folder).expect("a folder").count()
+    }
+
+    #[test]
+    fn a_file_is_replaced_and_nothing_is_left_beside_it() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("out.json");
+        for text in ["one", "two"] {
+            write_file(&path, text.as_bytes()).expect("written");
+            assert_eq!(read_text(&path).as_deref(), Ok(text));
+            assert_eq!(entries(folder.path()), 1);
+        }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_and_devices_survive() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let (path, link) = (folder.path().join("out"), folder.path().join("link"));
+        write_file(&path, b"old").expect("written");
+        std::os::unix::fs::symlink(&path, &link).expect("linked");
+        write_file(&link, b"new").expect("written");
+        assert_eq!(read_text(&path).as_deref(), Ok("new"));
+        assert!(fs::symlink_metadata(&link).expect("there").is_symlink());
+        write_file(Path::new("/dev/null"), b"gone").expect("written");
+        assert!(!fs::metadata("/dev/null").expect("there").is_file());
+    }
+
+    #[test]
+    fn errors_name_the_path() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let shown = folder.path().display();
+        let missing = folder.path().join("no").join("out.json");
+        let error = write_file(&missing, b"x").expect_err("no folder");
+        assert_eq!(error.to_string(), format!("{shown}/no/out.json: there is no such folder to write to"));
+        let error = read_text(&missing).expect_err("no file");
+        assert_eq!(error.to_string(), format!("{shown}/no/out.json: there is no such file"));
+        let error = read_text(folder.path()).expect_err("a folder");
+        assert_eq!(error.to_string(), format!("{shown}: this is a folder, not a file"));
+        let error = write_file(folder.path(), b"x").expect_err("a folder");
+        assert_eq!(error.to_string(), format!("{shown}: this is a folder, not a file"));
+    }
+
+    #[test]
+    fn text_is_utf8() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("a");
+        write_file(&path, b"\xEF\xBB\xBFtext").expect("written");
+        assert_eq!(read_text(&path).as_deref(), Ok("text"));
+        write_file(&path, b"one\ntwo \xFF").expect("written");
+        let error = read_text(&path).expect_err("not UTF-8");
+        let shown = path.display();
+        assert_eq!(error.to_string(), format!("{shown}:2:5: this is not UTF-8 text from byte 5 of the line on"));
+    }
+}

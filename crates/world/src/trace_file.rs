@@ -1,0 +1,241 @@
+//! Trace files: demonstrations, one a file, one state or action a line.
+
+use std::collections::BTreeSet;
+use std::fs::File;
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+
+use typelift_model::{GroundAtom, HashMap, State, Symbol, SymbolPool, TypeId};
+
+use crate::line_reader::{LINE_LIMIT, Line, LineReader};
+use crate::similar::did_you_mean;
+use crate::trace_line::{BodyLine, FormatLine, HeaderLine, TRACE_FORMAT};
+use crate::{FileError, Parser, Scene, Trace, TraceAction, json};
+
+/// The first line of a trace.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct TraceHeader {
+    /// What is done, in words.
+    pub task: String,
+    /// What holds in the end, if it is said.
+    pub goal: Vec<GroundAtom>,
+}
+
+/// A line of a trace after the header.
+#[derive(Debug, Clone, PartialEq)]
+pub enum TraceItem {
+    /// What is observed.
+    State(Scene),
+    /// What is done then.
+    Action(TraceAction),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Last {
+    Header,
+    State,
+    Action,
+}
+
+/// Reads a trace line by line, holding one line at a time. States and actions come in turn, beginning and ending with
+/// a state; anything else is an error. After an error, or the end, nothing more comes.
+#[derive(Debug)]
+pub struct TraceReader<R> {
+    lines: LineReader<R>,
+    header: TraceHeader,
+    last: Last,
+    done: bool,
+}
+
+impl TraceReader<BufReader<File>> {
+    /// Opens a file and reads its header.
+    ///
+    /// # Errors
+    /// [`FileError`] if that fails.
+    pub fn open(path: &Path) -> Result<Self, FileError> {
+        let file = File::open(path).map_err(|e| FileError::from_io(path, &e))?;
+        Self::new(path, BufReader::new(file))
+    }
+}
+
+impl<R: BufRead> TraceReader<R> {
+    /// Reads the header of a trace; `path` is what errors name.
+    ///
+    /// # Errors
+    /// [`FileError`] if there is none, or one of another version.
+    pub fn new(path: &Path, input: R) -> Result<Self, FileError> {
+        let mut lines = LineReader::new(path, input, LINE_LIMIT);
+        let no_header = || {
+            let hint = format!(r#"It is {{"format":"{TRACE_FORMAT}","task":"…","goal":["…"]}}."#);
+            FileError::at_line(path, 1, "the first line is not a header").with_hint(hint)
+        };
+        let Some(line) = lines.next_line()? else {
+            return Err(FileError::new(path, "the file is empty"));
+        };
+        if !line.text.trim_start().starts_with('{') {
+            return Err(no_header());
+        }
+        let FormatLine { format } = parse(path, &line)?;
+        match format {
+            None => return Err(no_header()),
+            Some(found) if found != TRACE_FORMAT => {
+                let what =
+                    format!("this is a file of format `{found}`; this version of typelift reads `{TRACE_FORMAT}`");
+                return Err(FileError::at_line(path, 1, what));
+            }
+            Some(_) => {}
+        }
+        let HeaderLine { task, goal } = parse(path, &line)?;
+        Ok(Self { lines, header: TraceHeader { task, goal }, last: Last::Header, done: false })
+    }
+
+    /// The header.
+    pub fn header(&self) -> &TraceHeader {
+        &self.header
+    }
+
+    /// The number of the line read last, from 1.
+    pub fn line(&self) -> usize {
+        self.lines.line()
+    }
+
+    fn next_item(&mut self) -> Result<Option<TraceItem>, FileError> {
+        let path = self.lines.path().to_owned();
+        let Some(line) = self.lines.next_line()? else {
+            let missing = match self.last {
+                Last::State => return Ok(None),
+                Last::Header => "there is no state after the header",
+                Last::Action => "there is no state after the last action",
+            };
+            return Err(FileError::at_line(&path, self.lines.line(), missing));
+        };
+        if line.text.trim().is_empty() {
+            let number = line.number;
+            while let Some(next) = self.lines.next_line()? {
+                if !next.text.trim().is_empty() {
+                    return Err(FileError::at_line(&path, number, "this line is empty"));
+                }
+            }
+            return self.next_item();
+        }
+        let number = line.number;
+        let error = |what: &str| FileError::at_line(&path, number, what);
+        let body: BodyLine = parse(&path, &line)?;
+        let item = match (body.state, body.action) {
+            (Some(state), None) => TraceItem::State(state.scene().map_err(error)?),
+            (None, Some(call)) => {
+                let BodyLine { executed, reason, t: time, .. } = body;
+                TraceItem::Action(TraceAction { call, executed, reason, time })
+            }
+            (None, None) => return Err(error("this line has neither a `state` nor an `action`")),
+            (Some(_), Some(_)) => return Err(error("this line has both a `state` and an `action`")),
+        };
+        self.last = match (self.last, &item) {
+            (Last::Header | Last::Action, TraceItem::State(_)) => Last::State,
+            (Last::State, TraceItem::Action(_)) => Last::Action,
+            (Last::Header, TraceItem::Action(_)) => return Err(error("there is no state before the first action")),
+            (Last::Action, TraceItem::Action(_)) => {
+                return Err(error("there is no state between this action and the one before"));
+            }
+            (Last::State, TraceItem::State(_)) => {
+                return Err(error("there is no action between this state and the one before"));
+            }
+        };
+        Ok(Some(item))
+    }
+}
+
+impl<R: BufRead> Iterator for TraceReader<R> {
+    type Item = Result<TraceItem, FileError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        if self.done {
+            return None;
+        }
+        let item = self.next_item().transpose();
+        self.done = !matches!(item, Some(Ok(_)));
+        item
+    }
+}
+
+fn parse<'a, T: serde::Deserialize<'a>>(path: &Path, line: &Line<'a>) -> Result<T, FileError> {
+    serde_json::from_str(line.text).map_err(|error| {
+        let what = match (error.is_eof(), line.complete) {
+            (true, false) => "the last line is incomplete".to_owned(),
+            (true, true) => "this line ends too early".to_owned(),
+            (false, _) => json::message(&error),
+        };
+        FileError { what, ..FileError::from_json(path, line.number, &error) }
+    })
+}
+
+/// Reads a trace file.
+///
+/// # Errors
+/// [`FileError`] at the first line that is malformed, out of turn, or shows something impossible: an unknown type, an
+/// entity whose type changes, an action on an entity that is not there.
+pub fn read_trace(path: &Path, parser: &mut Parser) -> Result<Trace, FileError> {
+    trace_from(path, TraceReader::open(path)?, parser)
+}
+
+/// The file's name without its folders.
+pub(crate) fn file_name(path: &Path) -> Option<Symbol> {
+    path.file_name().map(|name| Symbol::from(name.to_string_lossy().into_owned()))
+}
+
+fn trace_from<R: BufRead>(path: &Path, mut reader: TraceReader<R>, parser: &mut Parser) -> Result<Trace, FileError> {
+    let TraceHeader { task, goal } = reader.header().clone();
+    let mut trace = Trace { file: file_name(path), task, goal, ..Trace::default() };
+    let mut names = SymbolPool::new();
+    let mut types: HashMap<Symbol, (TypeId, usize)> = HashMap::default();
+    let mut state_line = 0;
+    while let Some(item) = reader.next() {
+        let line = reader.line();
+        match item? {
+            TraceItem::State(scene) => {
+                let state = parser
+                    .parse(&scene)
+                    .map_err(|e| FileError::from_parse(path, Some(line), &e, parser.hierarchy()))?;
+                for (name, &ty) in &state.objects {
+                    let &mut (first, at) = types.entry(name.clone()).or_insert((ty, line));
+                    if first != ty {
+                        let (now, before) = (parser.hierarchy().name(ty), parser.hierarchy().name(first));
+                        let what = format!("entity {name} is of type `{now}` here and of type `{before}` in line {at}");
+                        return Err(FileError::at_line(path, line, what));
+                    }
+                }
+                state_line = line;
+                trace.states.push(share(&state, &mut names));
+            }
+            TraceItem::Action(action) => {
+                let state = trace.states.last().map(|state| &state.objects);
+                let missing = action.call.args.iter().find(|arg| !state.is_some_and(|s| s.contains_key(*arg)));
+                if let Some(missing) = missing {
+                    let what = format!(
+                        "the action {} mentions `{missing}`, which is not in the state before it (line {state_line})",
+                        action.call
+                    );
+                    let hint = did_you_mean(missing.as_str(), state.into_iter().flat_map(|s| s.keys()));
+                    return Err(FileError::at_line(path, line, what).with_hint(hint));
+                }
+                trace.actions.push(action);
+            }
+        }
+    }
+    Ok(trace)
+}
+
+/// The same state, its names shared with those of the states before.
+fn share(state: &State, names: &mut SymbolPool) -> State {
+    let mut shared = |name: &Symbol| names.symbol(name.as_str());
+    let mut atoms = |set: &BTreeSet<GroundAtom>| -> BTreeSet<GroundAtom> {
+        let atom = |a: &GroundAtom| GroundAtom {
+            predicate: shared(&a.predicate),
+            args: a.args.iter().map(&mut shared).collect(),
+        };
+        set.iter().map(atom).collect()
+    };
+    let (true_atoms, unknown) = (atoms(&state.atoms), atoms(&state.unknown));
+    let objects = state.objects.iter().map(|(name, ty)| (names.symbol(name.as_str()), *ty)).collect();
+    State { objects, atoms: true_atoms, unknown }
+}

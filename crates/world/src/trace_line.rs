@@ -1,0 +1,156 @@
+//! The lines of a trace, format `trace/1`: a header, then states and actions in turn.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::{self, Write};
+
+use serde::{Deserialize, Serialize};
+use typelift_model::{GroundAtom, GroundCall, Symbol};
+
+use crate::{Entity, Scene, Snapshot, TraceAction, TraceHeader, json};
+
+/// The format that this version reads and writes.
+pub const TRACE_FORMAT: &str = "trace/1";
+
+/// One line of a trace, as it is written.
+#[derive(Debug, Clone, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(untagged)]
+pub enum TraceLine<'a> {
+    /// The first line.
+    Header {
+        /// [`TRACE_FORMAT`].
+        format: &'a str,
+        /// What is done, in words.
+        task: &'a str,
+        /// What holds in the end.
+        goal: &'a [GroundAtom],
+    },
+    /// A state; the first line after the header, and the one after each action.
+    State {
+        /// What is observed.
+        state: &'a Scene,
+    },
+    /// An action, between two states.
+    Action {
+        /// What the environment was told.
+        action: &'a GroundCall,
+        /// Whether it says that it did it.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        executed: Option<bool>,
+        /// Why not, if it says so.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        reason: Option<&'a str>,
+        /// When, in seconds.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        t: Option<f64>,
+    },
+}
+
+impl<'a> From<&'a TraceHeader> for TraceLine<'a> {
+    fn from(header: &'a TraceHeader) -> Self {
+        Self::Header { format: TRACE_FORMAT, task: &header.task, goal: &header.goal }
+    }
+}
+
+impl<'a> From<&'a Scene> for TraceLine<'a> {
+    fn from(state: &'a Scene) -> Self {
+        Self::State { state }
+    }
+}
+
+impl<'a> From<&'a TraceAction> for TraceLine<'a> {
+    fn from(action: &'a TraceAction) -> Self {
+        let TraceAction { call, executed, reason, time } = action;
+        Self::Action { action: call, executed: *executed, reason: reason.as_deref(), t: *time }
+    }
+}
+
+impl TraceLine<'_> {
+    /// Writes the line with its end, for whoever records a trace as it happens.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
+        serde_json::to_writer(&mut *out, self)?;
+        out.write_all(b"\n")
+    }
+}
+
+/// Writes a trace.
+///
+/// # Errors
+/// Those of the writer; also if there is not one scene more than there are actions.
+pub fn write_trace(
+    out: &mut impl Write,
+    header: &TraceHeader,
+    scenes: &[Scene],
+    actions: &[TraceAction],
+) -> io::Result<()> {
+    let [first, rest @ ..] = scenes else {
+        return Err(io::Error::other("a trace has at least one state"));
+    };
+    if rest.len() != actions.len() {
+        return Err(io::Error::other("a trace has one state more than it has actions"));
+    }
+    TraceLine::from(header).write(out)?;
+    TraceLine::from(first).write(out)?;
+    for (action, scene) in actions.iter().zip(rest) {
+        TraceLine::from(action).write(out)?;
+        TraceLine::from(scene).write(out)?;
+    }
+    Ok(())
+}
+
+/// What is read before anything else of a header.
+#[derive(Deserialize)]
+pub(crate) struct FormatLine {
+    pub(crate) format: Option<String>,
+}
+
+/// A header, as it is read.
+#[derive(Deserialize)]
+pub(crate) struct HeaderLine {
+    #[serde(default)]
+    pub(crate) task: String,
+    #[serde(default)]
+    pub(crate) goal: Vec<GroundAtom>,
+}
+
+/// A line after the header, as it is read.
+#[derive(Deserialize)]
+pub(crate) struct BodyLine {
+    pub(crate) state: Option<SceneLine>,
+    pub(crate) action: Option<GroundCall>,
+    pub(crate) executed: Option<bool>,
+    pub(crate) reason: Option<String>,
+    pub(crate) t: Option<f64>,
+}
+
+/// A scene of either kind, as it is read; unlike the scene itself it can say at which place it is malformed.
+#[derive(Deserialize)]
+#[serde(expecting = "a state")]
+pub(crate) struct SceneLine {
+    entities: Option<Vec<Entity>>,
+    #[serde(default)]
+    objects: Option<Objects>,
+    #[serde(default)]
+    atoms: BTreeSet<GroundAtom>,
+    #[serde(default)]
+    unknown: BTreeSet<GroundAtom>,
+}
+
+#[derive(Deserialize)]
+#[serde(transparent)]
+struct Objects(#[serde(deserialize_with = "json::distinct_map")] BTreeMap<Symbol, Symbol>);
+
+impl SceneLine {
+    /// The scene, or what is wrong with it.
+    pub(crate) fn scene(self) -> Result<Scene, &'static str> {
+        match (self.entities, self.objects) {
+            (Some(entities), None) => Ok(Scene::Snapshot(Snapshot { entities })),
+            (None, Some(Objects(objects))) => Ok(Scene::Symbolic { objects, atoms: self.atoms, unknown: self.unknown }),
+            (None, None) => Err("this state has neither `entities` nor `objects`"),
+            (Some(_), Some(_)) => Err("this state has both `entities` and `objects`"),
+        }
+    }
+}

@@ -1,0 +1,251 @@
+//! Trace files: what is read, what is refused and with which words, and that writing and reading are inverse.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use proptest::prelude::*;
+use typelift_model::{GroundAtom, GroundCall, Hierarchy, ParseConfig, Symbol};
+use typelift_world::{
+    Entity, FileError, Parser, Relation, Scene, Snapshot, Trace, TraceAction, TraceHeader, TraceItem, TraceReader,
+    Value, read_trace, write_trace,
+};
+
+const HEADER: &str = r#"{"format":"trace/1","task":"t","goal":["free(a)"],"recorder":"x"}"#;
+const STATE: &str = r#"{"state":{"objects":{"a":"block"},"atoms":["free(a)"]}}"#;
+const ACTION: &str = r#"{"action":{"name":"GO","args":["a"]},"executed":false,"reason":"stuck","t":1.5,"extra":{}}"#;
+
+fn parser() -> Parser {
+    let hierarchy = Hierarchy::from_edges([("block", "object"), ("arm", "object")]).expect("a tree");
+    Parser::new(hierarchy, ParseConfig::default())
+}
+
+fn read_bytes(bytes: &[u8]) -> Result<Trace, FileError> {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("a.jsonl");
+    typelift_world::write_file(&path, bytes).expect("written");
+    read_trace(&path, &mut parser()).map_err(|e| FileError { file: "a.jsonl".to_owned(), ..e })
+}
+
+fn read(lines: &[&str]) -> Result<Trace, FileError> {
+    read_bytes(format!("{}\n", lines.join("\n")).as_bytes())
+}
+
+fn refused(lines: &[&str]) -> String {
+    read(lines).expect_err(&lines.join("\n")).to_string()
+}
+
+#[test]
+fn a_trace_is_read() {
+    let trace = read(&[HEADER, STATE, ACTION, STATE, "", "  "]).expect("a trace");
+    assert_eq!((trace.file, trace.task.as_str()), (Some(Symbol::new("a.jsonl")), "t"));
+    assert_eq!(trace.goal[0].to_string(), "free(a)");
+    assert_eq!((trace.states.len(), trace.actions.len()), (2, 1));
+    let TraceAction { call, executed, reason, time } = &trace.actions[0];
+    assert_eq!((call.to_string().as_str(), *executed), ("GO(a)", Some(false)));
+    assert_eq!((reason.as_deref(), *time), (Some("stuck"), Some(1.5)));
+}
+
+#[test]
+fn line_ends_and_a_missing_last_one_do_not_matter() {
+    let trace = read(&[HEADER, STATE]);
+    assert_eq!(read_bytes(format!("\u{FEFF}{HEADER}\r\n{STATE}").as_bytes()), trace);
+}
+
+#[test]
+fn the_header_comes_first_and_names_the_version() {
+    assert_eq!(read_bytes(b"").expect_err("empty").to_string(), "a.jsonl: the file is empty");
+    for first in [STATE, "", "hello", "[]", r#"{"task":"t"}"#] {
+        assert_eq!(refused(&[first, STATE]), "a.jsonl:1: the first line is not a header");
+    }
+    assert_eq!(
+        refused(&[r#"{"format":"trace/2","goal":7}"#]),
+        "a.jsonl:1: this is a file of format `trace/2`; this version of typelift reads `trace/1`"
+    );
+    assert_eq!(
+        refused(&[r#"{"format":"trace/1","goal":["free(a"]}"#]),
+        "a.jsonl:1:37: `free(a` is not an atom of the form predicate(entity,entity)"
+    );
+    let hint = read(&[STATE]).expect_err("no header").hint;
+    assert_eq!(hint.as_deref(), Some(r#"It is {"format":"trace/1","task":"…","goal":["…"]}."#));
+}
+
+#[test]
+fn states_and_actions_come_in_turn() {
+    assert_eq!(refused(&[HEADER]), "a.jsonl:1: there is no state after the header");
+    assert_eq!(refused(&[HEADER, ACTION]), "a.jsonl:2: there is no state before the first action");
+    assert_eq!(refused(&[HEADER, STATE, ACTION]), "a.jsonl:3: there is no state after the last action");
+    assert_eq!(
+        refused(&[HEADER, STATE, ACTION, ACTION, STATE]),
+        "a.jsonl:4: there is no state between this action and the one before"
+    );
+    assert_eq!(refused(&[HEADER, STATE, STATE]), "a.jsonl:3: there is no action between this state and the one before");
+    assert_eq!(refused(&[HEADER, STATE, HEADER]), "a.jsonl:3: this line has neither a `state` nor an `action`");
+    assert_eq!(
+        refused(&[HEADER, r#"{"state":{"entities":[]},"action":{"name":"GO","args":[]}}"#]),
+        "a.jsonl:2: this line has both a `state` and an `action`"
+    );
+    assert_eq!(refused(&[HEADER, STATE, "", ACTION, STATE]), "a.jsonl:3: this line is empty");
+}
+
+#[test]
+fn malformed_lines_are_refused_with_their_place() {
+    let broken = format!("{HEADER}\n{STATE}\n{}", &ACTION[..20]);
+    assert_eq!(
+        read_bytes(broken.as_bytes()).expect_err("cut").to_string(),
+        "a.jsonl:3:20: the last line is incomplete"
+    );
+    assert_eq!(
+        read_bytes(format!("{broken}\n").as_bytes()).expect_err("cut").to_string(),
+        "a.jsonl:3:20: this line ends too early"
+    );
+    let mut other = format!("{HEADER}\n{{\"state\":").into_bytes();
+    other.push(0xFF);
+    assert_eq!(
+        read_bytes(&other).expect_err("not UTF-8").to_string(),
+        "a.jsonl:2:10: this is not UTF-8 text from byte 10 of the line on"
+    );
+    for (line, message) in [
+        ("{\"state\":{}}", "a.jsonl:2: this state has neither `entities` nor `objects`"),
+        ("{\"state\":{\"entities\":[],\"objects\":{}}}", "a.jsonl:2: this state has both `entities` and `objects`"),
+        ("{\"state\":7}", "a.jsonl:2:10: invalid type: integer `7`, expected a state"),
+        ("{\"state\" 7}", "a.jsonl:2:10: expected `:`"),
+        ("{\"state\":{\"entities\":[]}} x", "a.jsonl:2:27: nothing may follow after the end of the JSON text"),
+        (
+            "{\"state\":{\"entities\":[{\"id\":\"a\",\"type\":\"block\",\"attributes\":{\"x\":{}}}]}}",
+            "a.jsonl:2:68: an attribute is true, false, a word, a number or a list of numbers",
+        ),
+        (
+            "{\"state\":{\"entities\":[{\"id\":\"a\",\"type\":\"block\",\"relations\":{\"x\":1}}]}}",
+            "a.jsonl:2:66: a relation is to an entity's name, null or a list of names",
+        ),
+        ("{\"state\":{\"objects\":{\"a\":\"block\",\"a\":\"arm\"}}}", "a.jsonl:2:44: `a` stands here twice"),
+        ("{\"state\":{\"entities\":[{\"id\":\"a\"}]}}", "a.jsonl:2:32: missing field `type`"),
+        ("{\"action\":{\"name\":\"GO\"}}", "a.jsonl:2:23: missing field `args`"),
+    ] {
+        assert_eq!(refused(&[HEADER, line]), message, "{line}");
+    }
+}
+
+#[test]
+fn what_is_impossible_is_refused() {
+    let unknown = read(&[HEADER, r#"{"state":{"objects":{"a":"blocc"}}}"#]).expect_err("unknown type");
+    assert_eq!(unknown.to_string(), "a.jsonl:2: entity a: unknown type `blocc`");
+    assert_eq!(unknown.hint.as_deref(), Some("Did you mean `block`? Otherwise add it to the hierarchy."));
+    let unknown = read(&[HEADER, r#"{"state":{"objects":{"a":"pyramid"}}}"#]).expect_err("unknown type");
+    assert_eq!(unknown.hint.as_deref(), Some("Add it to the hierarchy."));
+    assert_eq!(
+        refused(&[HEADER, STATE, ACTION, r#"{"state":{"objects":{"a":"arm"}}}"#]),
+        "a.jsonl:4: entity a is of type `arm` here and of type `block` in line 2"
+    );
+    let missing = r#"{"action":{"name":"GO","args":["a","A"]}}"#;
+    let error = read(&[HEADER, STATE, missing, STATE]).expect_err("no such entity");
+    assert_eq!(
+        error.to_string(),
+        "a.jsonl:3: the action GO(a, A) mentions `A`, which is not in the state before it (line 2)"
+    );
+    assert_eq!(error.hint.as_deref(), Some("Did you mean `a`?"));
+    let two = r#"{"state":{"entities":[{"id":"a","type":"block","attributes":{"x":"y","x_y":true}}]}}"#;
+    let error = read(&[HEADER, two]).expect_err("two sources");
+    assert!(error.to_string().starts_with("a.jsonl:2: entity a: the predicate `x_y` has two sources: "), "{error}");
+}
+
+#[test]
+fn nothing_comes_after_an_error() {
+    let text = format!("{HEADER}\n{ACTION}\n{STATE}\n");
+    let mut reader = TraceReader::new(Path::new("a"), text.as_bytes()).expect("a header");
+    assert!(reader.next().is_some_and(|item| item.is_err()));
+    assert!(reader.next().is_none());
+}
+
+#[test]
+fn a_trace_that_is_out_of_turn_is_not_written() {
+    let header = TraceHeader::default();
+    assert!(write_trace(&mut Vec::new(), &header, &[], &[]).is_err());
+    let scene = Scene::Snapshot(Snapshot::default());
+    assert!(write_trace(&mut Vec::new(), &header, &[scene.clone(), scene], &[]).is_err());
+}
+
+fn name() -> impl Strategy<Value = Symbol> {
+    "[a-zA-Zé☃\\\\\"][a-z0-9_\\-]{0,3}".prop_map(Symbol::from)
+}
+
+fn atom() -> impl Strategy<Value = GroundAtom> {
+    let word = "[a-z]{1,3}".prop_map(Symbol::from);
+    (word.clone(), prop::collection::vec(word, 0..3)).prop_map(|(predicate, args)| GroundAtom { predicate, args })
+}
+
+fn scene() -> impl Strategy<Value = Scene> {
+    let value = prop_oneof![
+        any::<bool>().prop_map(Value::Bool),
+        (-1e6..1e6).prop_map(Value::Number),
+        name().prop_map(Value::Text),
+        prop::collection::vec(-1e6..1e6, 0..3).prop_map(Value::Vector),
+    ];
+    let relation = prop_oneof![
+        prop::option::of(name()).prop_map(Relation::One),
+        prop::collection::vec(name(), 0..3).prop_map(Relation::Many),
+    ];
+    let map = |s| prop::collection::btree_map(name(), s, 0..3);
+    let entity = (name(), name(), map(value.boxed()), prop::collection::btree_map(name(), relation, 0..3))
+        .prop_map(|(id, ty, attributes, relations)| Entity { id, ty, attributes, relations });
+    let symbolic = (
+        prop::collection::btree_map(name(), name(), 0..3),
+        prop::collection::btree_set(atom(), 0..3),
+        prop::collection::btree_set(atom(), 0..3),
+    );
+    prop_oneof![
+        prop::collection::vec(entity, 0..3).prop_map(|entities| Scene::Snapshot(Snapshot { entities })),
+        symbolic.prop_map(|(objects, atoms, unknown): (BTreeMap<_, _>, BTreeSet<_>, BTreeSet<_>)| Scene::Symbolic {
+            objects,
+            atoms,
+            unknown
+        }),
+    ]
+}
+
+prop_compose! {
+    fn action()(
+        name in name(),
+        args in prop::collection::vec(name(), 0..3),
+        executed in prop::option::of(any::<bool>()),
+        reason in prop::option::of("\\PC{0,8}"),
+        time in prop::option::of(0.0..1e6),
+    ) -> TraceAction {
+        TraceAction { call: GroundCall { name, args }, executed, reason, time }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn reading_what_was_written_gives_it_back(
+        task in "\\PC{0,12}",
+        goal in prop::collection::vec(atom(), 0..3),
+        first in scene(),
+        steps in prop::collection::vec((action(), scene()), 0..4),
+    ) {
+        let header = TraceHeader { task, goal };
+        let (actions, rest): (Vec<_>, Vec<_>) = steps.into_iter().unzip();
+        let scenes: Vec<Scene> = std::iter::once(first).chain(rest).collect();
+        let mut bytes = Vec::new();
+        write_trace(&mut bytes, &header, &scenes, &actions).expect("written");
+        let reader = TraceReader::new(Path::new("a"), bytes.as_slice()).expect("a header");
+        prop_assert_eq!(reader.header(), &header);
+        let (mut read_scenes, mut read_actions) = (Vec::new(), Vec::new());
+        for item in reader {
+            match item.expect("a line") {
+                TraceItem::State(scene) => read_scenes.push(scene),
+                TraceItem::Action(action) => read_actions.push(action),
+            }
+        }
+        prop_assert_eq!(read_scenes, scenes);
+        prop_assert_eq!(read_actions, actions);
+    }
+
+    #[test]
+    fn any_line_is_read_or_refused(line in "\\PC{0,40}") {
+        let _ = read(&[HEADER, STATE, &line]);
+        let _ = read(&[&line]);
+    }
+}
