@@ -1,13 +1,17 @@
 //! What the tests that cross rooms share; the tests themselves are in `tests/tests`.
 
+mod worlds;
+
 use std::sync::Arc;
 
 use typelift::agent::{Account, Confirmation, Episode, Experience, Observer, Options, run};
 use typelift::imagine;
 use typelift::learn::{self, learn_dataset};
-use typelift::model::{ActionModel, Budget, ParseConfig, Symbol};
-use typelift::world::{Dataset, Parser, Reset, Trace, TraceAction};
+use typelift::model::{ActionModel, Budget, ParseConfig, Symbol, Task};
+use typelift::world::{Dataset, Parser, Reset, Trace, TraceAction, World};
 use typelift_kitchen::{Demonstration, Kitchen, KitchenTask, demonstrations, hierarchy};
+
+pub use worlds::{Meddle, Ran, Watched, approve, run_in};
 
 /// Demonstrations of the kitchen as a dataset.
 ///
@@ -79,4 +83,15 @@ pub fn solve_watched(
     let reset = Reset { seed, scenario: Some(task.scenario.clone()) };
     let mut approve = |_: &_| Confirmation::Approve;
     run(&mut episode, &mut Kitchen::new(), &reset, &mut parser, &mut approve, observer).expect("the simulator works")
+}
+
+/// A task of the kitchen as a planner gets it.
+///
+/// # Panics
+/// If the simulator fails.
+pub fn planning_task(model: &ActionModel, task: &KitchenTask, seed: u64) -> Task {
+    let reset = Reset { seed, scenario: Some(task.scenario.clone()) };
+    let scene = Kitchen::new().reset(&reset).expect("the simulator works");
+    let mut parser = Parser::new(model.hierarchy.clone(), model.parse.clone());
+    Task { init: parser.parse(&scene).expect("a state"), goal: task.goal.clone() }
 }

@@ -55,8 +55,9 @@ pub fn run(
     let mut input = Input::Started;
     loop {
         input = match episode.step(input, observer)? {
-            Command::Reset => Input::Observation(parse(&world.reset(reset)?)?),
-            Command::Observe => Input::Observation(parse(&world.observe()?)?),
+            Command::Reset if world.can_reset() => Input::Observation(parse(&world.reset(reset)?)?),
+            // What cannot be set back is taken as it is.
+            Command::Reset | Command::Observe => Input::Observation(parse(&world.observe()?)?),
             Command::Propose(plan) => match confirm(&plan) {
                 Confirmation::Approve => Input::Approve,
                 Confirmation::Reject { step, reason } => Input::Reject { step, reason },

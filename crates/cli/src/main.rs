@@ -1,1 +1,70 @@
-fn main() {}
+//! The `typelift` program: parse the arguments, call the libraries, show what they found.
+//!
+//! One file a subcommand. Data goes to standard output, everything else to standard error. Every way to end has its
+//! exit code, in [`exit`].
+
+mod demo;
+mod exit;
+mod failure;
+mod files;
+mod kitchen;
+mod learn;
+mod limits;
+mod narrate;
+mod plan;
+mod plan_text;
+mod run;
+mod show;
+mod style;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use exit::Exit;
+use failure::Failure;
+use limits::Clock;
+
+/// Show a robot a few tasks; it plans tasks it was never shown.
+#[derive(Debug, Parser)]
+#[command(name = "typelift", version, max_term_width = 100, disable_help_subcommand = true)]
+#[command(after_help = "Begin with `typelift demo`.")]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+    /// Say nothing on standard error but errors
+    #[arg(long, short, global = true)]
+    quiet: bool,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Demo(demo::Demo),
+    Learn(learn::Learn),
+    Show(show::Show),
+    Plan(plan::Plan),
+    Run(run::Run),
+    Kitchen(kitchen::Kitchen),
+}
+
+fn main() -> ExitCode {
+    let clock = Clock::start();
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            // Help and version are no errors. There is nobody left to tell if printing fails.
+            let _ = error.print();
+            return if error.use_stderr() { Exit::Usage.into() } else { Exit::Success.into() };
+        }
+    };
+    let quiet = arguments.quiet;
+    let ended = match arguments.command {
+        Command::Demo(demo) => demo.run(clock),
+        Command::Learn(learn) => learn.run(quiet),
+        Command::Show(show) => show.run(),
+        Command::Plan(plan) => plan.run(clock, quiet),
+        Command::Run(run) => run.run(clock, quiet),
+        Command::Kitchen(kitchen) => kitchen.run(quiet),
+    };
+    ended.unwrap_or_else(|failure: Failure| failure.report()).into()
+}

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use typelift_model::{
-    ActionModel, ActionSchema, ClusterKey, Effect, Hierarchy, LiftedAtom, LiftedCall, Literal, Parameter, Provenance,
+    ActionModel, ActionSchema, ClusterKey, Effect, Evidence, Hierarchy, LiftedAtom, LiftedCall, Literal, Parameter, Provenance,
     Source, Symbol, Term, TypeId, schema_name,
 };
 
@@ -46,6 +46,11 @@ impl Draft {
     pub(crate) fn signed_effect(&self) -> Vec<(bool, LiftedAtom)> {
         let adds = self.adds.iter().map(|a| (true, a.clone()));
         adds.chain(self.deletes.iter().map(|a| (false, a.clone()))).collect()
+    }
+
+    /// The number of observations that it rests on.
+    pub(crate) fn support(&self, evidence: &Evidence) -> u64 {
+        self.sources.iter().filter_map(|s| evidence.clusters.get(&s.cluster)).map(|cluster| cluster.count).sum()
     }
 
     /// The schema, named by its call alone; [`name_actions`] tells schemas apart.

@@ -74,7 +74,7 @@ pub struct Report {
     pub unchanged: u64,
     /// Transitions that nothing explains.
     pub unexplained: u64,
-    /// Clusters with a single observation.
+    /// Actions of the model that rest on a single observation.
     pub single_support: usize,
 }
 
@@ -137,7 +137,7 @@ pub fn learn(hierarchy: &Hierarchy, evidence: Evidence, options: &Options) -> Re
         scored_pairs,
         unchanged: evidence.unchanged(),
         unexplained: evidence.unexplained.values().map(|(count, _)| count).sum(),
-        single_support: evidence.clusters.values().filter(|cluster| cluster.count == 1).count(),
+        single_support: actions.iter().filter(|action| action.support(&evidence) == 1).count(),
     };
     let mut model = ActionModel {
         predicates: predicates_of(&actions),

@@ -56,7 +56,7 @@ pub fn read_objects(text: &str) -> Result<Declarations, PddlError> {
         let ty = match declaration.ty {
             None => ROOT,
             Some(ty) => ty.atom().ok_or_else(|| {
-                let hint = "give the object one type";
+                let hint = "Give the object one type.";
                 ty.error("an object has one type, not `either` of several").with_hint(hint).as_unsupported()
             })?,
         };

@@ -107,9 +107,10 @@ impl<'t> Document<'t> {
         match roots.next() {
             None => Ok(first),
             Some(extra) => {
-                let Span { end, .. } = first.span();
+                let Span { start, end } = first.span();
+                let last = Span { start: if first.is_list() { end - 1 } else { start }, end };
                 let error = extra.error("nothing may follow after the end of the expression");
-                Err(error.with_related(self.text, Span { start: end - 1, end }, "which ends here"))
+                Err(error.with_related(self.text, last, "which ends here"))
             }
         }
     }

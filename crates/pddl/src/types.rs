@@ -60,7 +60,7 @@ fn parent_name(ty: Sexpr<'_>) -> Result<&str, PddlError> {
     ty.atom().ok_or_else(|| {
         if ty.has_head("either") {
             let error = ty.error("a type cannot lie below `either` of several types");
-            error.with_hint("give the type one parent; types form a tree").as_unsupported()
+            error.with_hint("Give the type one parent; types form a tree.").as_unsupported()
         } else {
             ty.error("the name of a type is expected here, not a list")
         }

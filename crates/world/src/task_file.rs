@@ -152,6 +152,17 @@ struct WrittenTask<'a> {
     seed: Option<u64>,
 }
 
+#[cfg(feature = "schema")]
+impl schemars::JsonSchema for TaskFile {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Task".into()
+    }
+
+    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        WrittenTask::json_schema(generator)
+    }
+}
+
 #[derive(Deserialize)]
 struct ReadTask {
     goal: Vec<GroundAtom>,

@@ -118,7 +118,7 @@ fn malformed_lines_are_refused_with_their_place() {
             "{\"state\":{\"entities\":[{\"id\":\"a\",\"type\":\"block\",\"relations\":{\"x\":1}}]}}",
             "a.jsonl:2:66: a relation is to an entity's name, null or a list of names",
         ),
-        ("{\"state\":{\"objects\":{\"a\":\"block\",\"a\":\"arm\"}}}", "a.jsonl:2:44: `a` stands here twice"),
+        ("{\"state\":{\"objects\":{\"a\":\"block\",\"a\":\"arm\"}}}", "a.jsonl:2:36: `a` stands here twice"),
         ("{\"state\":{\"entities\":[{\"id\":\"a\"}]}}", "a.jsonl:2:32: missing field `type`"),
         ("{\"action\":{\"name\":\"GO\"}}", "a.jsonl:2:23: missing field `args`"),
     ] {

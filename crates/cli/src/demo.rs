@@ -1,0 +1,221 @@
+//! `typelift demo`: the whole loop in two seconds.
+
+use std::io::Write;
+use std::sync::Arc;
+use std::time::Instant;
+
+use typelift::agent::{Account, Confirmation, Episode, Event, Experience, Observer, Options, run};
+use typelift::imagine;
+use typelift::learn::{self, Learned, learn_dataset};
+use typelift::model::{ActionModel, Budget, ParseConfig, Plan, Symbol};
+use typelift::world::{Dataset, Parser, Reset, Trace, TraceAction, World};
+use typelift_kitchen::{Demonstration, Kitchen, KitchenTask, demonstrations, draw, faults, hierarchy, tasks};
+
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::limits::Clock;
+use crate::narrate::told;
+use crate::plan_text::{imagined_note, plan_size};
+use crate::show::{describe, source_name};
+use crate::style::{DIM, GOOD, HEAD, IMAGINED, count, wrapped};
+
+/// The task shown of each set, and what is new about it.
+const SHOWN: [(&str, &str); 6] = [
+    ("T1.4", "shown, in another room"),
+    ("T2.3", "shown foods, never together"),
+    ("T3.4", "more of them than ever shown"),
+    ("T4.3", "a bagel was never seen; nothing like it was ever toasted"),
+    ("T5.3", "neither was ever seen; both are food"),
+    ("T6.4", "all of it at once"),
+];
+
+/// Watch a kitchen agent learn from 8 demonstrations and solve what it was never shown
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Example:\n  typelift demo --seed 3")]
+pub(crate) struct Demo {
+    /// The seed of the rooms
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+}
+
+impl Demo {
+    pub(crate) fn run(&self, clock: Clock) -> Result<Exit, Failure> {
+        let mut out = anstream::stdout().lock();
+        let demonstrations = demonstrations(self.seed);
+        let titles = demonstrations.iter().map(|d| d.task.as_str()).collect::<Vec<_>>().join(", ");
+        writeln!(out, "{HEAD}Shown{HEAD:#}: 8 tasks in a kitchen")?;
+        writeln!(out, "  {}.", wrapped(titles.split(' '), 2, 78))?;
+
+        let started = Instant::now();
+        let learned = learn_all(&demonstrations)?;
+        let took = started.elapsed().as_millis();
+        print_learned(&mut out, &learned, took)?;
+
+        let model = Arc::new(learned.model);
+        writeln!(out, "\n{HEAD}Asked{HEAD:#}: one task of each of the six sets, in rooms with 32 objects")?;
+        let all = tasks();
+        let mut solved = true;
+        for (name, novelty) in SHOWN {
+            if let Some(task) = all.iter().find(|task| task.name == name) {
+                solved &= self.solve(&mut out, &model, task, novelty)?;
+            }
+        }
+        if let Some(fault) = faults().iter().find(|fault| fault.name == "broken_cutboard_lettuce") {
+            solved &= self.repair(&mut out, &model, fault)?;
+        }
+        writeln!(
+            out,
+            "\n{DIM}{:.1} s. Next: typelift kitchen export K, and the README's tour.{DIM:#}",
+            clock.elapsed().as_secs_f64()
+        )?;
+        Ok(if solved { Exit::Success } else { Exit::NotAchieved })
+    }
+
+    fn solve(
+        &self,
+        out: &mut impl Write,
+        model: &Arc<ActionModel>,
+        task: &KitchenTask,
+        novelty: &str,
+    ) -> Result<bool, Failure> {
+        let started = Instant::now();
+        let (account, kitchen) = self.act(model, task, &mut ())?;
+        let took = started.elapsed().as_secs_f64() * 1e3;
+        let plan = account.plan.clone().unwrap_or_default();
+        let verdict = if account.solved() { format!("{GOOD}solved{GOOD:#}") } else { "not solved".to_owned() };
+        writeln!(out, "  {HEAD}{}{HEAD:#} {}", task.name, wrapped(task.title.split(' '), 7, 78))?;
+        writeln!(out, "       {DIM}{novelty}{DIM:#}")?;
+        writeln!(
+            out,
+            "       {verdict}: {}, {}, {took:.0} ms",
+            plan_size(&plan),
+            count(account.proposals, "proposal")
+        )?;
+        for note in imagined_notes(&plan, model) {
+            writeln!(out, "       {IMAGINED}{}{IMAGINED:#}", wrapped(note.split(' '), 9, 78))?;
+        }
+        drop(kitchen);
+        Ok(account.solved())
+    }
+
+    /// A broken cutboard, without setting the kitchen back.
+    fn repair(&self, out: &mut impl Write, model: &Arc<ActionModel>, fault: &KitchenTask) -> Result<bool, Failure> {
+        writeln!(out, "\n{HEAD}Broken{HEAD:#}: the cutboard no longer cuts, and nothing says so")?;
+        let mut lines = Lines(Vec::new());
+        let (account, kitchen) = self.act(model, fault, &mut lines)?;
+        for line in lines.0 {
+            writeln!(out, "{line}")?;
+        }
+        for note in imagined_notes(account.plan.as_ref().unwrap_or(&Plan::default()), model) {
+            writeln!(out, "  {IMAGINED}{}{IMAGINED:#}", wrapped(note.split(' '), 4, 78))?;
+        }
+        if account.solved() {
+            writeln!(out, "  {GOOD}solved{GOOD:#} from where it stood, without starting over:\n")?;
+        }
+        write!(out, "{}", kitchen.room().map(draw).unwrap_or_default())?;
+        Ok(account.solved())
+    }
+
+    fn act(
+        &self,
+        model: &Arc<ActionModel>,
+        task: &KitchenTask,
+        observer: &mut dyn Observer,
+    ) -> Result<(Account, Kitchen), Failure> {
+        let options = Options { imagine: Some(imagine::Options::default()), ..Options::default() };
+        let budget = Budget::with_expansions(200_000);
+        let mut episode = Episode::new(Arc::clone(model), task.goal.clone(), options, Experience::new(), budget);
+        let mut kitchen = Kitchen::new();
+        let mut parser = Parser::new(model.hierarchy.clone(), model.parse.clone());
+        let reset = Reset { seed: self.seed, scenario: Some(task.scenario.clone()) };
+        let mut approve = |_: &Plan| Confirmation::Approve;
+        let world: &mut dyn World = &mut kitchen;
+        let account = run(&mut episode, world, &reset, &mut parser, &mut approve, observer)?;
+        Ok((account, kitchen))
+    }
+}
+
+/// Collects what happens as lines.
+struct Lines(Vec<String>);
+
+impl Observer for Lines {
+    fn event(&mut self, event: &Event) {
+        self.0.extend(told(event));
+    }
+}
+
+/// What the imagined steps of a plan rest on, each once.
+fn imagined_notes(plan: &Plan, model: &ActionModel) -> Vec<String> {
+    let mut notes: Vec<String> = Vec::new();
+    for step in &plan.steps {
+        if let Some(note) = imagined_note(step, &model.hierarchy)
+            && !notes.contains(&note)
+        {
+            notes.push(note);
+        }
+    }
+    notes
+}
+
+fn learn_all(demonstrations: &[Demonstration]) -> Result<Learned, Failure> {
+    let mut parser = Parser::new(hierarchy(), ParseConfig::default());
+    let mut traces = Vec::with_capacity(demonstrations.len());
+    for demonstration in demonstrations {
+        let mut states = Vec::with_capacity(demonstration.scenes.len());
+        for scene in &demonstration.scenes {
+            states.push(parser.parse(scene).map_err(Failure::bad_input)?);
+        }
+        let action = |call: &typelift::model::GroundCall| TraceAction {
+            call: call.clone(),
+            executed: None,
+            reason: None,
+            time: None,
+        };
+        traces.push(Trace {
+            file: Some(Symbol::from(format!("{}.jsonl", demonstration.name))),
+            task: demonstration.task.clone(),
+            goal: demonstration.goal.clone(),
+            states,
+            actions: demonstration.calls.iter().map(action).collect(),
+        });
+    }
+    let dataset = Dataset {
+        hierarchy: parser.hierarchy().clone(),
+        parse: parser.config().clone(),
+        predicates: parser.predicates(),
+        traces,
+    };
+    learn_dataset(&dataset, &learn::Options::default()).map_err(Failure::bad_input)
+}
+
+fn print_learned(out: &mut impl Write, learned: &Learned, took: u128) -> Result<(), Failure> {
+    let (report, model) = (&learned.report, &learned.model);
+    writeln!(
+        out,
+        "\n{HEAD}Learned{HEAD:#} in {took} ms: {}, {}, {}",
+        count(report.transitions, "transition"),
+        count(report.individual as u64, "individual action"),
+        count(report.generalized as u64, "generalized action"),
+    )?;
+    for action in &model.actions {
+        let sources = action.provenance.sources();
+        let name = format!("{:<24}", action.name);
+        if let [only] = sources {
+            let _ = only;
+            writeln!(out, "  {name}{DIM}as shown{DIM:#}")?;
+            continue;
+        }
+        let prefix = format!("{}-", action.call.name);
+        let from = sources.iter().map(|source| source_name(source, model));
+        let from: Vec<String> = from.map(|name| name.strip_prefix(&prefix).unwrap_or(&name).to_owned()).collect();
+        let words: Vec<&str> = from.iter().map(String::as_str).collect();
+        writeln!(out, "  {name}{DIM}{}{DIM:#}", wrapped(words, 26, 78))?;
+    }
+    if let Some(action) = model.action("USE-cutboard-food") {
+        writeln!(out, "\n{HEAD}One of them{HEAD:#}, in full:")?;
+        for line in describe(action, model, false).lines() {
+            writeln!(out, "  {line}")?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,124 @@
+//! What went wrong: a message, a hint, an exit code.
+
+use std::fmt::Display;
+use std::io;
+
+use typelift::agent::{ProposeError, RunError};
+use typelift::model::{ModelFileError, NameCollision, Stop};
+use typelift::plan::Cut;
+use typelift::world::{FileError, WorldError};
+
+use crate::exit::Exit;
+use crate::style::{ERROR, HINT};
+
+/// Why a command could not do its work.
+#[derive(Debug)]
+pub(crate) struct Failure {
+    exit: Exit,
+    message: String,
+    hint: Option<String>,
+}
+
+impl Failure {
+    pub(crate) fn new(exit: Exit, message: impl Display) -> Self {
+        Self { exit, message: message.to_string(), hint: None }
+    }
+
+    pub(crate) fn bad_input(message: impl Display) -> Self {
+        Self::new(Exit::BadInput, message)
+    }
+
+    #[must_use]
+    pub(crate) fn with_hint(mut self, hint: impl Display) -> Self {
+        self.hint = Some(hint.to_string());
+        self
+    }
+
+    /// Prints it, unless it is only that nobody reads on.
+    pub(crate) fn report(&self) -> Exit {
+        if self.exit != Exit::Success {
+            anstream::eprintln!("{ERROR}error{ERROR:#}: {}", self.message);
+            if let Some(hint) = &self.hint {
+                anstream::eprintln!("{HINT}hint{HINT:#}: {hint}");
+            }
+        }
+        self.exit
+    }
+}
+
+impl From<FileError> for Failure {
+    fn from(error: FileError) -> Self {
+        let exit = if error.unsupported { Exit::Unsupported } else { Exit::BadInput };
+        Self { exit, message: error.render(), hint: error.hint }
+    }
+}
+
+impl From<io::Error> for Failure {
+    fn from(error: io::Error) -> Self {
+        let exit = if error.kind() == io::ErrorKind::BrokenPipe { Exit::Success } else { Exit::BadInput };
+        Self::new(exit, error)
+    }
+}
+
+impl From<NameCollision> for Failure {
+    fn from(error: NameCollision) -> Self {
+        Self::bad_input(error)
+            .with_hint("PDDL does not tell upper from lower case: rename one of the two, or ignore it")
+    }
+}
+
+impl From<ModelFileError> for Failure {
+    fn from(error: ModelFileError) -> Self {
+        match error {
+            ModelFileError::Collision(collision) => collision.into(),
+            ModelFileError::Version { .. } => {
+                Self::bad_input(error).with_hint("learn the model again, or use the typelift that wrote it")
+            }
+            _ => Self::bad_input(error),
+        }
+    }
+}
+
+impl From<ProposeError> for Failure {
+    fn from(error: ProposeError) -> Self {
+        match error {
+            ProposeError::Cut(cut) => Self::new(cut_exit(cut), cut),
+            ProposeError::Invalid { .. } => Self::new(Exit::Internal, format!("{error}; this is a defect of typelift")),
+        }
+    }
+}
+
+impl From<WorldError> for Failure {
+    fn from(error: WorldError) -> Self {
+        Self::new(Exit::Environment, format!("the environment failed: {error}"))
+    }
+}
+
+impl From<RunError> for Failure {
+    fn from(error: RunError) -> Self {
+        match error {
+            RunError::World(error) => error.into(),
+            RunError::State(error) => Self::new(Exit::Environment, format!("the environment's state cannot be read: {error}"))
+                .with_hint("a type that the model does not know can be added with --types; an attribute can be ignored when learning, with --ignore"),
+            RunError::Propose(error) => error.into(),
+        }
+    }
+}
+
+/// The exit code of grounding that was ended.
+pub(crate) fn cut_exit(cut: Cut) -> Exit {
+    match cut {
+        Cut::OutOfMemory => Exit::OutOfMemory,
+        Cut::Stopped(Stop::Time) => Exit::OutOfTime,
+        Cut::Stopped(Stop::Cancelled) => Exit::Interrupted,
+    }
+}
+
+impl Failure {
+    /// The same, with the file's name in front.
+    #[must_use]
+    pub(crate) fn in_file(mut self, path: &std::path::Path) -> Self {
+        self.message = format!("{}: {}", path.display(), self.message);
+        self
+    }
+}

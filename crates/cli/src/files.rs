@@ -1,0 +1,45 @@
+//! Reading models and tasks, as every command that takes them does.
+
+use std::path::{Path, PathBuf};
+
+use typelift::model::{ActionModel, Task};
+use typelift::world::{FileError, Parser, TaskFile, read_task, read_text, read_types};
+
+use crate::exit::Exit;
+use crate::failure::Failure;
+
+/// Reads a model file, and adds the types of another file to it.
+pub(crate) fn read_model(path: &Path, types: Option<&PathBuf>) -> Result<ActionModel, Failure> {
+    let text = read_text(path)?;
+    if text.trim_start().starts_with(['(', ';']) {
+        return Err(Failure::new(
+            Exit::Unsupported,
+            format!("{}: this is a PDDL file; typelift reads learned models (JSON) here so far", path.display()),
+        ));
+    }
+    let mut model = ActionModel::from_json(&text).map_err(|error| Failure::from(error).in_file(path))?;
+    if let Some(types) = types {
+        model.hierarchy = read_types(types)?.extend(&model.hierarchy)?;
+    }
+    Ok(model)
+}
+
+/// Reads a task file that says from which state to plan.
+pub(crate) fn read_planning_task(path: &Path, model: &ActionModel) -> Result<Task, Failure> {
+    let file = read_task(path)?;
+    let mut parser = Parser::new(model.hierarchy.clone(), model.parse.clone());
+    file.task(&mut parser, &model.predicates).map_err(|error| {
+        let error: FileError = error.in_file(path, &parser);
+        error.into()
+    })
+}
+
+/// A task's name, for people: its file's, without folders and ending.
+pub(crate) fn task_name(path: &Path) -> String {
+    path.file_stem().map_or_else(|| path.display().to_string(), |stem| stem.to_string_lossy().into_owned())
+}
+
+/// Reads a task file for an environment.
+pub(crate) fn read_run_task(path: &Path) -> Result<TaskFile, Failure> {
+    Ok(read_task(path)?)
+}

@@ -1,0 +1,201 @@
+//! `typelift kitchen`: the built-in simulator.
+
+use std::fs::create_dir_all;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use typelift::model::ParseConfig;
+use typelift::world::{
+    FileError, Parser, Reset, Scene, TaskFile, TraceAction, TraceHeader, TraceItem, TraceReader, World, write_file,
+    write_task, write_trace,
+};
+use typelift_kitchen::{
+    Demonstration, Difference, Kitchen as Simulator, KitchenTask, demonstrations, draw, faults, replay, serve, tasks,
+    types_pddl,
+};
+
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::style::{BAD, GOOD, count};
+
+/// The built-in kitchen simulator
+#[derive(Debug, clap::Args)]
+pub(crate) struct Kitchen {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, clap::Subcommand)]
+enum Command {
+    /// Write types, demonstrations, tasks and scenarios with faults as files
+    #[command(after_help = "Example:\n  typelift kitchen export K")]
+    Export {
+        /// The folder to write to; made if it is not there
+        folder: PathBuf,
+        /// The seed of the rooms
+        #[arg(long, value_name = "N", default_value_t = 0)]
+        seed: u64,
+    },
+    /// Be the kitchen for somebody else: speak env/1 on standard input and output
+    #[command(after_help = "Example:\n  typelift run model.json task.json --env 'typelift kitchen serve'")]
+    Serve,
+    /// Hold the simulator against recorded traces
+    #[command(after_help = "Example:\n  typelift kitchen replay K/demos/*.jsonl\n\n\
+        Sets the simulator to a trace's first state, performs its actions, and compares the\n\
+        atoms after each. Exit codes: 0 no difference, 12 a difference, 31 bad input.")]
+    Replay {
+        /// Traces that begin with a snapshot of a kitchen
+        #[arg(required = true, value_name = "TRACE")]
+        traces: Vec<PathBuf>,
+    },
+    /// Draw a room
+    #[command(after_help = "Example:\n  typelift kitchen draw T5.4 --seed 3")]
+    Draw {
+        /// A task's or a fault's name; the default room if left out
+        task: Option<String>,
+        /// The seed of the room
+        #[arg(long, value_name = "N", default_value_t = 0)]
+        seed: u64,
+    },
+}
+
+impl Kitchen {
+    pub(crate) fn run(&self, quiet: bool) -> Result<Exit, Failure> {
+        match &self.command {
+            Command::Export { folder, seed } => export(folder, *seed, quiet),
+            Command::Serve => {
+                serve(std::io::stdin().lock(), std::io::stdout().lock())?;
+                Ok(Exit::Success)
+            }
+            Command::Replay { traces } => replay_all(traces),
+            Command::Draw { task, seed } => draw_room(task.as_deref(), *seed),
+        }
+    }
+}
+
+fn export(folder: &Path, seed: u64, quiet: bool) -> Result<Exit, Failure> {
+    let [demos, task_folder, fault_folder] = ["demos", "tasks", "faults"].map(|name| folder.join(name));
+    for path in [&demos, &task_folder, &fault_folder] {
+        create_dir_all(path).map_err(|error| FileError::from_io(path, &error))?;
+    }
+    write_file(&folder.join("types.pddl"), types_pddl().as_bytes())?;
+    let demonstrations = demonstrations(seed);
+    for demonstration in &demonstrations {
+        write_file(&demos.join(format!("{}.jsonl", demonstration.name)), &trace_bytes(demonstration)?)?;
+    }
+    let (tasks, faults) = (tasks(), faults());
+    for (folder, list) in [(&task_folder, &tasks), (&fault_folder, &faults)] {
+        for task in list {
+            write_task(&folder.join(format!("{}.json", task.name)), &task_file(task, seed)?)?;
+        }
+    }
+    if !quiet {
+        anstream::eprintln!(
+            "wrote types.pddl, {}, {} and {} to {}",
+            count(demonstrations.len() as u64, "demonstration"),
+            count(tasks.len() as u64, "task"),
+            count(faults.len() as u64, "fault"),
+            folder.display()
+        );
+    }
+    Ok(Exit::Success)
+}
+
+fn trace_bytes(demonstration: &Demonstration) -> Result<Vec<u8>, Failure> {
+    let header = TraceHeader { task: demonstration.task.clone(), goal: demonstration.goal.clone() };
+    let action = |call: &typelift::model::GroundCall| TraceAction {
+        call: call.clone(),
+        executed: None,
+        reason: None,
+        time: None,
+    };
+    let actions: Vec<TraceAction> = demonstration.calls.iter().map(action).collect();
+    let mut bytes = Vec::new();
+    write_trace(&mut bytes, &header, &demonstration.scenes, &actions)?;
+    Ok(bytes)
+}
+
+/// The task with the state that its scenario has under this seed, so that it can be planned without the simulator.
+fn task_file(task: &KitchenTask, seed: u64) -> Result<TaskFile, Failure> {
+    let scenario = Some(task.scenario.clone());
+    let state = Simulator::new().reset(&Reset { seed, scenario: scenario.clone() })?;
+    Ok(TaskFile { goal: task.goal.clone(), state: Some(state), scenario, seed: Some(seed) })
+}
+
+fn replay_all(traces: &[PathBuf]) -> Result<Exit, Failure> {
+    let mut out = anstream::stdout().lock();
+    let mut exit = Exit::Success;
+    for path in traces {
+        match replay_one(path)? {
+            (steps, None) => {
+                let steps = count(steps as u64, "step");
+                writeln!(out, "{}: {GOOD}no difference{GOOD:#} in {steps}", path.display())?;
+            }
+            (_, Some(difference)) => {
+                exit = Exit::NotAchieved;
+                write!(out, "{}: {}", path.display(), difference_text(&difference))?;
+            }
+        }
+    }
+    Ok(exit)
+}
+
+fn replay_one(path: &Path) -> Result<(usize, Option<Difference>), Failure> {
+    // Checks the whole file first: types, entities, the alternation of states and actions.
+    let mut parser = Parser::new(typelift_kitchen::hierarchy(), ParseConfig::default());
+    typelift::world::read_trace(path, &mut parser)?;
+    let (mut scenes, mut calls) = (Vec::new(), Vec::new());
+    for item in TraceReader::open(path)? {
+        match item? {
+            TraceItem::State(scene) => scenes.push(scene),
+            TraceItem::Action(action) => calls.push(action.call),
+        }
+    }
+    let mut scenes = scenes.into_iter();
+    let Some(Scene::Snapshot(first)) = scenes.next() else {
+        return Err(Failure::bad_input(format!("{}: the first state is not a snapshot", path.display())).with_hint(
+            "a kitchen cannot be built from atoms alone: they do not say in which order things are stacked",
+        ));
+    };
+    let report =
+        replay(&first, calls.into_iter().zip(scenes)).map_err(|error| Failure::bad_input(error).in_file(path))?;
+    Ok((report.steps, report.difference))
+}
+
+fn difference_text(difference: &Difference) -> String {
+    let at = match &difference.call {
+        None => "in the first state".to_owned(),
+        Some(call) => format!("after step {}, {call}", difference.step),
+    };
+    let mut text = format!("{BAD}differs{BAD:#} {at}\n");
+    for atom in &difference.missing {
+        text += &format!("  recorded, but not in the simulator: {atom}\n");
+    }
+    for atom in &difference.unexpected {
+        text += &format!("  in the simulator, but not recorded: {atom}\n");
+    }
+    if let Some(refusal) = &difference.refusal {
+        text += &format!("  the simulator refused: {refusal}\n");
+    }
+    text
+}
+
+fn draw_room(name: Option<&str>, seed: u64) -> Result<Exit, Failure> {
+    let all: Vec<KitchenTask> = tasks().into_iter().chain(faults()).collect();
+    let scenario = match name {
+        None => None,
+        Some(name) => {
+            let task = all.iter().find(|task| task.name == name).ok_or_else(|| {
+                let names: Vec<&str> = all.iter().map(|task| task.name.as_str()).collect();
+                Failure::bad_input(format!("there is no task `{name}`"))
+                    .with_hint(format!("tasks: {}", names.join(" ")))
+            })?;
+            Some(task.scenario.clone())
+        }
+    };
+    let mut kitchen = Simulator::new();
+    kitchen.reset(&Reset { seed, scenario })?;
+    let mut out = anstream::stdout().lock();
+    write!(out, "{}", kitchen.room().map(draw).unwrap_or_default())?;
+    Ok(Exit::Success)
+}

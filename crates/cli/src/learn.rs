@@ -1,0 +1,230 @@
+//! `typelift learn`.
+
+use std::collections::BTreeMap;
+use std::io::Write;
+use std::path::PathBuf;
+
+use serde::Serialize;
+use typelift::learn::{Actor, LearnError, Learned, Options, learn_dataset};
+use typelift::model::{ActionModel, ParseConfig, Symbol, Unexplained};
+use typelift::world::{Dataset, ObjectTypes, read_dataset, read_hierarchy, write_file};
+
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::style::{HEAD, HINT, WARNING, count, wrapped};
+
+/// Learn actions from demonstrations
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  typelift learn demos/*.jsonl --types types.pddl -o model.json
+  typelift learn demos --types types.pddl --ignore battery,robot.pose --dry-run
+  typelift learn *.trajectory --types domain.pddl --problems problems -o model.json
+
+A trace is one demonstration: JSON Lines (trace/1), or a PDDL trajectory. Of a folder,
+every .jsonl and .trajectory file is read.")]
+pub(crate) struct Learn {
+    /// Traces, trajectories, or folders of them
+    #[arg(required = true, value_name = "TRACE")]
+    traces: Vec<PathBuf>,
+    /// The type hierarchy: PDDL (:types …), a PDDL domain, or JSON {"child": "parent"}
+    #[arg(long, value_name = "FILE")]
+    types: PathBuf,
+    /// Where trajectories find the types of their objects: a folder of PDDL problems
+    #[arg(long, value_name = "DIR", conflicts_with = "objects")]
+    problems: Option<PathBuf>,
+    /// Where trajectories find the types of their objects: JSON {"object": "type"}, or a PDDL (:objects …)
+    #[arg(long, value_name = "FILE")]
+    objects: Option<PathBuf>,
+    /// Attributes and relations that give no atoms: NAME, or TYPE.NAME
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
+    ignore: Vec<String>,
+    /// The type of whoever acts, `none` if nobody does [default: what argument 0 of every action has in common]
+    #[arg(long, value_name = "TYPE")]
+    actor: Option<String>,
+    /// Do not generalize: individual actions only
+    #[arg(long)]
+    individual: bool,
+    /// Only list types, predicates and their support, and write nothing
+    #[arg(long)]
+    dry_run: bool,
+    /// Print one JSON object instead
+    #[arg(long)]
+    json: bool,
+    /// Write the model to this file
+    #[arg(long, short, value_name = "MODEL", required_unless_present = "dry_run")]
+    output: Option<PathBuf>,
+}
+
+#[derive(Serialize)]
+struct Report {
+    traces: usize,
+    transitions: u64,
+    individual_actions: usize,
+    generalized_actions: usize,
+    unchanged: u64,
+    unexplained: u64,
+    single_support: usize,
+    predicates: BTreeMap<Symbol, usize>,
+    actions: Vec<Symbol>,
+}
+
+impl Learn {
+    pub(crate) fn run(&self, quiet: bool) -> Result<Exit, Failure> {
+        let hierarchy = read_hierarchy(&self.types)?;
+        let ignore = self.ignore.iter().filter(|name| !name.is_empty()).map(|name| Symbol::new(name)).collect();
+        let types = match (&self.problems, &self.objects) {
+            (Some(folder), _) => ObjectTypes::from_problems(folder)?,
+            (None, Some(file)) => ObjectTypes::from_file(file)?,
+            (None, None) => ObjectTypes::default(),
+        };
+        let dataset = read_dataset(&self.traces, hierarchy, ParseConfig { ignore }, &types)?;
+        let actor = match self.actor.as_deref() {
+            None => None,
+            Some("none") => Some(Actor::Nobody),
+            Some(name) => Some(Actor::Type(Symbol::new(name))),
+        };
+        let learned = learn_dataset(&dataset, &Options { individual: self.individual, actor }).map_err(|error| {
+            let LearnError::UnknownType(name) = &error;
+            Failure::bad_input(format!("--actor {name}: {error}")).with_hint("name a type of the hierarchy, or `none`")
+        })?;
+        let mut out = anstream::stdout().lock();
+        if self.json {
+            writeln!(out, "{}", serde_json::to_string_pretty(&report(&dataset, &learned)).unwrap_or_default())?;
+        } else if self.dry_run {
+            self.describe(&mut out, &dataset, &learned)?;
+        } else {
+            print_counts(&mut out, &dataset, &learned)?;
+        }
+        if let (Some(path), false) = (&self.output, self.dry_run) {
+            write_file(path, learned.model.to_json()?.as_bytes())?;
+            if !quiet {
+                anstream::eprintln!("wrote {}", path.display());
+            }
+        }
+        out.flush()?;
+        self.warn(&learned);
+        Ok(Exit::Success)
+    }
+
+    /// `--dry-run`: what would be learned from.
+    fn describe(&self, out: &mut impl Write, dataset: &Dataset, learned: &Learned) -> Result<(), Failure> {
+        let mut types: BTreeMap<&Symbol, usize> = BTreeMap::new();
+        for trace in &dataset.traces {
+            for ty in trace.states.first().into_iter().flat_map(|state| state.objects.values()) {
+                *types.entry(dataset.hierarchy.name(*ty)).or_default() += 1;
+            }
+        }
+        writeln!(out, "{HEAD}types{HEAD:#} (entities, over all traces)")?;
+        for (name, entities) in types {
+            writeln!(out, "  {name:<24} {entities:>6}")?;
+        }
+        let mut changes: BTreeMap<&Symbol, (usize, usize)> = BTreeMap::new();
+        for transition in dataset.transitions() {
+            let mut changed: Vec<&Symbol> = Vec::new();
+            let effect = transition.before.added(transition.after).chain(transition.before.deleted(transition.after));
+            for atom in effect {
+                if !changed.contains(&&atom.predicate) {
+                    changed.push(&atom.predicate);
+                }
+            }
+            for predicate in changed {
+                changes.entry(predicate).or_default().0 += 1;
+            }
+            let mut held: Vec<&Symbol> = transition.before.atoms.iter().map(|atom| &atom.predicate).collect();
+            held.dedup();
+            for predicate in held {
+                changes.entry(predicate).or_default().1 += 1;
+            }
+        }
+        let transitions = learned.report.transitions;
+        writeln!(
+            out,
+            "{HEAD}predicates{HEAD:#} (of {transitions} transitions: in how many one changed, one held before)"
+        )?;
+        for (predicate, arity) in &dataset.predicates {
+            let (changed, held) = changes.get(predicate).copied().unwrap_or_default();
+            let note = if changed == transitions as usize { "  changes every time" } else { "" };
+            writeln!(out, "  {:<24} {changed:>6} {held:>6}{note}", format!("{predicate}/{arity}"))?;
+        }
+        let ignored: Vec<&str> = dataset.parse.ignore.iter().map(Symbol::as_str).collect();
+        let ignored = if ignored.is_empty() { "nothing".to_owned() } else { ignored.join(", ") };
+        writeln!(out, "{HEAD}ignored{HEAD:#} {ignored}")?;
+        writeln!(out, "{HEAD}support{HEAD:#} (transitions of each individual action)")?;
+        for (key, cluster) in &learned.model.evidence.clusters {
+            let types: Vec<&str> = key.types.iter().map(Symbol::as_str).collect();
+            writeln!(out, "  {:<66} {:>6}", format!("{}({})", key.action, types.join(", ")), cluster.count)?;
+        }
+        print_counts(out, dataset, learned)
+    }
+
+    /// Warns of attributes that seem to flicker: most actions rest on a single observation.
+    fn warn(&self, learned: &Learned) {
+        let (single, actions) = (learned.report.single_support, learned.report.generalized);
+        if self.individual || single * 2 <= actions {
+            return;
+        }
+        let suspects = flickering(&learned.model);
+        anstream::eprintln!(
+            "{WARNING}warning{WARNING:#}: {single} of {actions} actions rest on a single observation, so little was generalized"
+        );
+        let names: Vec<&str> = suspects.iter().map(String::as_str).collect();
+        anstream::eprintln!(
+            "{HINT}hint{HINT:#}: attributes that change by themselves keep alike actions apart; most effects mention {}: if it does not matter, --ignore it",
+            names.join(", ")
+        );
+    }
+}
+
+/// The predicates that occur in the most effects of individual actions, at most three.
+fn flickering(model: &ActionModel) -> Vec<String> {
+    let mut counts: BTreeMap<&Symbol, usize> = BTreeMap::new();
+    for key in model.evidence.clusters.keys() {
+        let mut predicates: Vec<&Symbol> = key.adds.iter().chain(&key.deletes).map(|atom| &atom.predicate).collect();
+        predicates.sort_unstable();
+        predicates.dedup();
+        for predicate in predicates {
+            *counts.entry(predicate).or_default() += 1;
+        }
+    }
+    let mut sorted: Vec<(&Symbol, usize)> = counts.into_iter().collect();
+    sorted.sort_by(|a, b| b.1.cmp(&a.1).then_with(|| a.0.cmp(b.0)));
+    sorted.into_iter().take(3).map(|(predicate, _)| predicate.to_string()).collect()
+}
+
+fn report(dataset: &Dataset, learned: &Learned) -> Report {
+    Report {
+        traces: dataset.traces.len(),
+        transitions: learned.report.transitions,
+        individual_actions: learned.report.individual,
+        generalized_actions: learned.report.generalized,
+        unchanged: learned.report.unchanged,
+        unexplained: learned.report.unexplained,
+        single_support: learned.report.single_support,
+        predicates: dataset.predicates.clone(),
+        actions: learned.model.actions.iter().map(|action| action.name.clone()).collect(),
+    }
+}
+
+fn print_counts(out: &mut impl Write, dataset: &Dataset, learned: &Learned) -> Result<(), Failure> {
+    let report = &learned.report;
+    let traces = count(dataset.traces.len() as u64, "demonstration");
+    writeln!(out, "{}, from {traces}", count(report.transitions, "transition"))?;
+    writeln!(out, "{}", count(report.individual as u64, "individual action"))?;
+    let generalized = count(report.generalized as u64, "generalized action");
+    if report.generalized != report.individual || report.individual == 0 {
+        let names = learned.model.actions.iter().map(|action| action.name.as_str());
+        writeln!(out, "{generalized}:\n  {}", wrapped(names, 2, 80))?;
+    }
+    if report.unchanged > 0 {
+        writeln!(out, "{} changed nothing, kept as negatives", count(report.unchanged, "transition"))?;
+    }
+    for (reason, (times, witnesses)) in &learned.model.evidence.unexplained {
+        let reason = match reason {
+            Unexplained::ObjectsChanged => "entities appeared or vanished",
+            Unexplained::TooSymmetric => "too many entities changed alike to tell them apart",
+        };
+        let places: Vec<String> = witnesses.iter().map(|w| format!("{} step {}", w.file, w.step)).collect();
+        writeln!(out, "{} unexplained, {reason}: {}", count(*times, "transition"), places.join(", "))?;
+    }
+    Ok(())
+}

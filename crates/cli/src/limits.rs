@@ -1,0 +1,129 @@
+//! Limits: the only place where the program looks at the clock for an algorithm, and where Ctrl-C arrives.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+
+use typelift::model::{Budget, Stop};
+
+use crate::exit::Exit;
+use crate::failure::Failure;
+
+/// When the program started: a time limit covers reading and grounding too.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Clock(Instant);
+
+impl Clock {
+    pub(crate) fn start() -> Self {
+        Self(Instant::now())
+    }
+
+    pub(crate) fn elapsed(self) -> Duration {
+        self.0.elapsed()
+    }
+}
+
+/// Limits that every command spells alike.
+#[derive(Debug, Clone, Copy, clap::Args)]
+#[command(next_help_heading = "Limits")]
+pub(crate) struct Limits {
+    /// Stop after this time, reading included: seconds, or 500ms, 30s, 5m
+    #[arg(long, value_name = "TIME", value_parser = parse_duration)]
+    time_limit: Option<Duration>,
+    /// Expand at most this many nodes in one search
+    #[arg(long, value_name = "N")]
+    max_expansions: Option<u64>,
+    /// Hold at most this many megabytes in grounding and search, by typelift's own count
+    #[arg(long, value_name = "MB")]
+    memory_limit: Option<u64>,
+}
+
+fn parse_duration(text: &str) -> Result<Duration, String> {
+    let split = text.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(text.len());
+    let (number, unit) = text.split_at(split);
+    let factor = match unit {
+        "" | "s" => 1.0,
+        "ms" => 1e-3,
+        "m" | "min" => 60.0,
+        "h" => 3600.0,
+        _ => return Err(format!("unknown unit `{unit}`; write 500ms, 30s, 5m or 1h")),
+    };
+    let number: f64 = number.parse().map_err(|_| "write a number of seconds, or 500ms, 30s, 5m".to_owned())?;
+    Duration::try_from_secs_f64(number * factor).map_err(|e| e.to_string())
+}
+
+/// Set by Ctrl-C and by a request to terminate.
+#[derive(Clone, Default)]
+pub(crate) struct Interrupt {
+    raised: Arc<AtomicBool>,
+    /// What is done at once when it is raised: waiting for a flag would be too late.
+    hooks: Arc<Mutex<Vec<Hook>>>,
+}
+
+type Hook = Box<dyn Fn() + Send>;
+
+impl Interrupt {
+    /// Catches Ctrl-C from now on; a second one ends the program at once.
+    pub(crate) fn install() -> Result<Self, Failure> {
+        let interrupt = Self::default();
+        let Self { raised, hooks } = interrupt.clone();
+        ctrlc::set_handler(move || {
+            let again = raised.swap(true, Ordering::SeqCst);
+            for hook in hooks.lock().iter().flat_map(|hooks| hooks.iter()) {
+                hook();
+            }
+            if again {
+                std::process::exit(Exit::Interrupted as i32);
+            }
+        })
+        .map_err(|e| Failure::new(Exit::Internal, format!("cannot catch Ctrl-C: {e}")))?;
+        Ok(interrupt)
+    }
+
+    /// Has something done as soon as it is raised.
+    pub(crate) fn on_raised(&self, hook: impl Fn() + Send + 'static) {
+        if let Ok(mut hooks) = self.hooks.lock() {
+            hooks.push(Box::new(hook));
+        }
+    }
+
+    pub(crate) fn is_set(&self) -> bool {
+        self.raised.load(Ordering::SeqCst)
+    }
+}
+
+impl Limits {
+    /// The budget that these limits leave, counted from the program's start.
+    pub(crate) fn budget(self, clock: Clock, interrupt: &Interrupt) -> Budget {
+        let interrupt = interrupt.clone();
+        let limit = self.time_limit;
+        Budget {
+            expansions: self.max_expansions,
+            bytes: self.memory_limit.map(|megabytes| megabytes.saturating_mul(1 << 20)),
+            stop: Some(Arc::new(move || {
+                if interrupt.is_set() {
+                    Some(Stop::Cancelled)
+                } else if limit.is_some_and(|limit| clock.elapsed() >= limit) {
+                    Some(Stop::Time)
+                } else {
+                    None
+                }
+            })),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn durations() {
+        assert_eq!(parse_duration("90"), Ok(Duration::from_secs(90)));
+        assert_eq!(parse_duration("500ms"), Ok(Duration::from_millis(500)));
+        assert_eq!(parse_duration("1.5m"), Ok(Duration::from_secs(90)));
+        assert!(
+            parse_duration("5 parsecs").is_err() && parse_duration("").is_err() && parse_duration("1e999").is_err()
+        );
+    }
+}

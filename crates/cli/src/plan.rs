@@ -1,0 +1,276 @@
+//! `typelift plan`.
+
+use std::io::Write;
+use std::path::PathBuf;
+use std::time::Duration;
+
+use serde::Serialize;
+use typelift::agent::{Options, Proposal, propose};
+use typelift::imagine;
+use typelift::model::{ActionModel, Budget, Plan as FoundPlan, Task};
+use typelift::plan::{Explanation, Outcome, Restrictions};
+use typelift::world::write_file;
+
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::files::{read_model, read_planning_task};
+use crate::limits::{Clock, Interrupt, Limits};
+use crate::plan_text::{imagined_note, numbered_steps, plan_file, plan_size};
+use crate::style::{BAD, HEAD, HINT, count};
+
+/// Nodes that are expanded to find out whether a hint holds.
+const HINT_EXPANSIONS: u64 = 20_000;
+
+/// Plan a task with a learned model
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  typelift plan kitchen.json K/tasks/T2.1.json
+  typelift plan kitchen.json K/tasks/T4.1.json --imagine -o apple.plan
+  typelift plan kitchen.json K/tasks/T1.4.json --plans 3
+
+Exit codes: 0 a plan was found, 11 there is none in this model, 12 gave up at a limit,
+22 out of memory, 23 out of time, 31 bad input, 36 wrong usage.")]
+pub(crate) struct Plan {
+    /// The model, as `learn` wrote it
+    model: PathBuf,
+    /// The task: a goal and a state to start from
+    task: PathBuf,
+    /// Add the types of this file to the model's
+    #[arg(long, value_name = "FILE")]
+    types: Option<PathBuf>,
+    /// Imagine actions for goals that cannot be reached with the learned ones
+    #[arg(long)]
+    imagine: bool,
+    /// Find so many different plans
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1000))]
+    plans: u64,
+    /// Go on looking for shorter plans until there is none, a limit is met, or Ctrl-C is pressed
+    #[arg(long, conflicts_with = "plans")]
+    better: bool,
+    /// Use an action also where some of its effects hold already
+    #[arg(long)]
+    plain: bool,
+    /// Write the plan to this file; several to FILE.1, FILE.2, …
+    #[arg(long, short, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Print one JSON object instead
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    limits: Limits,
+}
+
+/// What is printed with `--json`.
+#[derive(Serialize)]
+struct Answer {
+    outcome: &'static str,
+    plans: Vec<PlanJson>,
+    imagined_actions: Vec<String>,
+    ground_actions: u64,
+    expansions: u64,
+    evaluations: u64,
+    bytes: u64,
+    seconds: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    explanation: Option<String>,
+}
+
+#[derive(Serialize)]
+struct PlanJson {
+    cost: u64,
+    steps: Vec<StepJson>,
+}
+
+#[derive(Serialize)]
+struct StepJson {
+    action: String,
+    name: String,
+    args: Vec<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    imagined: Option<String>,
+}
+
+impl Plan {
+    pub(crate) fn run(&self, clock: Clock, quiet: bool) -> Result<Exit, Failure> {
+        let interrupt = Interrupt::install()?;
+        let budget = self.limits.budget(clock, &interrupt);
+        let model = read_model(&self.model, self.types.as_ref())?;
+        let task = read_planning_task(&self.task, &model)?;
+        let begun = clock.elapsed();
+        let options = self.options(self.imagine);
+        let mut proposal = propose(&model, &task, &Restrictions::default(), &options, &budget)?;
+        let mut out = anstream::stdout().lock();
+        let mut plans: Vec<FoundPlan> = Vec::new();
+        let last = loop {
+            let outcome = proposal.outcome.clone();
+            let Outcome::Solved(plan) = outcome else { break outcome };
+            let number = plans.len() + 1;
+            if !self.json {
+                let took = clock.elapsed() - begun;
+                self.print(&mut out, number, &plan, &proposal, &model, took)?;
+            }
+            plans.push(plan);
+            if !self.better && plans.len() as u64 == self.plans {
+                break proposal.outcome.clone();
+            }
+            proposal.outcome = if self.better {
+                proposal.better_plan(plans.last().map_or(0, FoundPlan::cost), &budget)?
+            } else {
+                proposal.next_plan(&budget)?
+            };
+        };
+        self.write_plans(&plans, &proposal.model, &task)?;
+        let exit = if plans.is_empty() { exit_of(&last) } else { Exit::Success };
+        let explanation = plans.is_empty().then(|| proposal.explain());
+        if self.json {
+            let answer = answer(&last, &plans, &proposal, explanation.as_ref(), clock.elapsed() - begun);
+            writeln!(out, "{}", serde_json::to_string_pretty(&answer).unwrap_or_default())?;
+            return Ok(exit);
+        }
+        out.flush()?;
+        match explanation {
+            Some(explanation) => self.report_none(&last, &explanation, &model, &task, &budget),
+            None if !quiet => self.report_end(&last, plans.len()),
+            None => {}
+        }
+        Ok(exit)
+    }
+
+    fn options(&self, imagine: bool) -> Options {
+        let plan = typelift::plan::Options { plans: self.plans as usize, ..Default::default() };
+        Options { imagine: imagine.then(imagine::Options::default), strict: !self.plain, plan, ..Options::default() }
+    }
+
+    fn print(
+        &self,
+        out: &mut impl Write,
+        number: usize,
+        plan: &FoundPlan,
+        proposal: &Proposal,
+        model: &ActionModel,
+        took: Duration,
+    ) -> Result<(), Failure> {
+        let head = match (number, self.better, self.plans) {
+            (1, true, _) | (_, false, 1) => String::new(),
+            (_, true, _) => "better: ".to_owned(),
+            (_, false, _) => format!("plan {number}: "),
+        };
+        let expansions = count(proposal.report().expansions, "expansion");
+        let size = plan_size(plan);
+        writeln!(out, "{HEAD}{head}{size}, {} ms, {expansions}{HEAD:#}", took.as_millis())?;
+        write!(out, "{}", numbered_steps(plan, &model.hierarchy))?;
+        Ok(())
+    }
+
+    fn write_plans(&self, plans: &[FoundPlan], model: &ActionModel, task: &Task) -> Result<(), Failure> {
+        let Some(path) = &self.output else { return Ok(()) };
+        let kept = if self.better { &plans[plans.len().saturating_sub(1)..] } else { plans };
+        for (i, plan) in kept.iter().enumerate() {
+            let mut name = path.clone().into_os_string();
+            if kept.len() > 1 {
+                name.push(format!(".{}", i + 1));
+            }
+            write_file(name.as_ref(), plan_file(plan, model, &task.init)?.as_bytes())?;
+        }
+        Ok(())
+    }
+
+    /// Says why there is no plan, and whether imagination would help.
+    fn report_none(
+        &self,
+        outcome: &Outcome,
+        explanation: &Explanation,
+        model: &ActionModel,
+        task: &Task,
+        budget: &Budget,
+    ) {
+        match outcome {
+            Outcome::Unsolvable | Outcome::NoMorePlans => {
+                for line in explanation.to_string().lines() {
+                    anstream::eprintln!("{BAD}no plan{BAD:#}: {line}");
+                }
+            }
+            other => anstream::eprintln!("{BAD}no plan{BAD:#}: {}", ending(other)),
+        }
+        if self.imagine || *outcome != Outcome::Unsolvable {
+            return;
+        }
+        let limited = Budget { expansions: Some(HINT_EXPANSIONS), ..budget.clone() };
+        let imagined = propose(model, task, &Restrictions::default(), &self.options(true), &limited);
+        if let Ok(Proposal { outcome: Outcome::Solved(plan), .. }) = imagined {
+            anstream::eprintln!(
+                "{HINT}hint{HINT:#}: --imagine finds a plan of {} resting on {}",
+                count(plan.len() as u64, "step"),
+                count(plan.imagined_actions() as u64, "imagined action")
+            );
+        }
+    }
+
+    /// Says why there are no more plans, where more were wanted.
+    fn report_end(&self, outcome: &Outcome, found: usize) {
+        if self.better || (found as u64) < self.plans {
+            let what = if self.better { "no shorter plan" } else { "no further plan" };
+            anstream::eprintln!("{what}: {}", ending(outcome));
+        }
+    }
+}
+
+fn ending(outcome: &Outcome) -> &'static str {
+    match outcome {
+        Outcome::Solved(_) => "found",
+        Outcome::Unsolvable | Outcome::NoMorePlans => "everything was searched",
+        Outcome::GaveUp => "gave up at the limit of expansions",
+        Outcome::OutOfTime => "out of time",
+        Outcome::OutOfMemory => "out of memory",
+        Outcome::Cancelled => "stopped",
+    }
+}
+
+fn exit_of(outcome: &Outcome) -> Exit {
+    match outcome {
+        Outcome::Solved(_) | Outcome::NoMorePlans => Exit::Success,
+        Outcome::Unsolvable => Exit::Unsolvable,
+        Outcome::GaveUp => Exit::NotAchieved,
+        Outcome::OutOfTime => Exit::OutOfTime,
+        Outcome::OutOfMemory => Exit::OutOfMemory,
+        Outcome::Cancelled => Exit::Interrupted,
+    }
+}
+
+fn answer(
+    outcome: &Outcome,
+    plans: &[FoundPlan],
+    proposal: &Proposal,
+    explanation: Option<&Explanation>,
+    took: Duration,
+) -> Answer {
+    let report = proposal.report();
+    let step = |step: &typelift::model::Step| StepJson {
+        action: step.action.to_string(),
+        name: step.call.name.to_string(),
+        args: step.call.args.iter().map(ToString::to_string).collect(),
+        imagined: imagined_note(step, &proposal.model.hierarchy),
+    };
+    Answer {
+        outcome: match outcome {
+            _ if !plans.is_empty() => "solved",
+            Outcome::Solved(_) => "solved",
+            Outcome::Unsolvable | Outcome::NoMorePlans => "unsolvable",
+            Outcome::GaveUp => "gave_up",
+            Outcome::OutOfTime => "out_of_time",
+            Outcome::OutOfMemory => "out_of_memory",
+            Outcome::Cancelled => "stopped",
+        },
+        plans: plans
+            .iter()
+            .map(|plan| PlanJson { cost: plan.cost(), steps: plan.steps.iter().map(step).collect() })
+            .collect(),
+        imagined_actions: proposal.imagination.actions.iter().map(|a| a.name.to_string()).collect(),
+        ground_actions: report.ground_actions,
+        expansions: report.expansions,
+        evaluations: report.evaluations,
+        bytes: report.bytes,
+        seconds: took.as_secs_f64(),
+        explanation: explanation.map(ToString::to_string),
+    }
+}

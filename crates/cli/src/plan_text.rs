@@ -1,0 +1,62 @@
+//! Plans as text: for people, and as the plan files of the planning competitions.
+
+use std::fmt::Write;
+
+use typelift::model::{ActionModel, Hierarchy, NameCollision, PddlNames, Plan, State, Step, describe_replacements};
+
+use crate::style::{IMAGINED, count};
+
+/// What a step rests on, if it is imagined: `imagined: cuttingtool for cutboard, from USE-cutboard-food, 5 observations`.
+pub(crate) fn imagined_note(step: &Step, hierarchy: &Hierarchy) -> Option<String> {
+    let imagined = step.imagined.as_ref()?;
+    Some(format!(
+        "imagined: {}, from {}, {}",
+        describe_replacements(&imagined.replaced, hierarchy),
+        imagined.from,
+        count(imagined.observations, "observation")
+    ))
+}
+
+/// The steps, numbered, a line each; what an imagined one rests on follows on the same line, or on the next if the
+/// line would be longer than 80 columns.
+pub(crate) fn numbered_steps(plan: &Plan, hierarchy: &Hierarchy) -> String {
+    let mut text = String::new();
+    for (i, step) in plan.steps.iter().enumerate() {
+        let line = format!("{:>3}  {}", i + 1, step.call);
+        let _ = match imagined_note(step, hierarchy) {
+            None => writeln!(text, "{line}"),
+            Some(note) if line.len() + 2 + note.len() <= 80 => writeln!(text, "{line}  {IMAGINED}{note}{IMAGINED:#}"),
+            Some(note) => writeln!(text, "{line}\n     {IMAGINED}{note}{IMAGINED:#}"),
+        };
+    }
+    text
+}
+
+/// `5 steps, 1 imagined`.
+pub(crate) fn plan_size(plan: &Plan) -> String {
+    let imagined = plan.steps.iter().filter(|step| step.imagined.is_some()).count();
+    let size = count(plan.len() as u64, "step");
+    if imagined == 0 { size } else { format!("{size}, {imagined} imagined") }
+}
+
+/// The plan file: one `(name arg …)` a line in PDDL names, then the cost.
+pub(crate) fn plan_file(plan: &Plan, model: &ActionModel, state: &State) -> Result<String, NameCollision> {
+    let names = model.pddl_names()?;
+    let objects = PddlNames::fold("object", state.objects.keys())?;
+    let mut text = String::new();
+    for step in &plan.steps {
+        let action = names.actions.pddl(step.action.as_str()).unwrap_or(&step.action);
+        let _ = write!(text, "({action}");
+        for object in &step.objects {
+            let _ = write!(text, " {}", objects.pddl(object.as_str()).unwrap_or(object));
+        }
+        let _ = write!(text, ")");
+        if let Some(note) = imagined_note(step, &model.hierarchy) {
+            let _ = write!(text, " ; {note}");
+        }
+        text.push('\n');
+    }
+    let unit = if plan.steps.iter().all(|step| step.cost == 1) { "unit cost" } else { "general cost" };
+    let _ = writeln!(text, "; cost = {} ({unit})", plan.cost());
+    Ok(text)
+}

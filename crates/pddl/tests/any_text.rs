@@ -1,0 +1,64 @@
+//! Whatever the text, it is read or refused with a place that can be shown.
+
+use proptest::prelude::*;
+use typelift_pddl::{PddlError, read_hierarchy, read_objects, read_trajectory};
+
+fn shown<T>(read: Result<T, PddlError>, text: &str) {
+    if let Err(error) = read {
+        assert!(error.render("file", text).starts_with(&format!("file:{}:", error.position.line)));
+    }
+}
+
+/// Texts of the words that the readers look for.
+fn text() -> impl Strategy<Value = String> {
+    let word = prop::sample::select(vec![
+        "(",
+        ")",
+        "(",
+        ")",
+        "-",
+        " ",
+        "\n",
+        "\t",
+        "a ",
+        "b ",
+        "?x",
+        "é",
+        ";",
+        ":types ",
+        "(either ",
+        "object ",
+        "(define ",
+        "(domain d)",
+        "(problem p)",
+        "(:objects ",
+        "(:trajectory ",
+        "(:state ",
+        "(:action ",
+        "(:init ",
+        "(operator: ",
+        "(:transition_status ",
+        "(not ",
+        "(= ",
+    ]);
+    prop_oneof![prop::collection::vec(word, 0..24).prop_map(|words| words.concat()), "\\PC{0,30}"]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(512))]
+
+    #[test]
+    fn any_text_is_read_or_refused(text in text()) {
+        shown(read_hierarchy(&text), &text);
+        shown(read_objects(&text), &text);
+        shown(read_trajectory(&text), &text);
+    }
+}
+
+#[test]
+fn deep_nesting_is_refused_without_overflow() {
+    let deep = format!("{}{}", "(".repeat(100_000), ")".repeat(100_000));
+    for text in [deep.clone(), format!("(:types {deep})"), format!("(:trajectory (:state {deep}))")] {
+        assert!(read_hierarchy(&text).is_err() && read_objects(&text).is_err() && read_trajectory(&text).is_err());
+    }
+}
