@@ -13,19 +13,19 @@ import pathlib
 import random
 import sys
 
-# Every type with its parent; below `object` there are up to five levels.
+# The types below each type: up to five levels below `object`.
 TYPES = {
-    "entity": "object",
-    "robot": "entity", "equipment": "entity", "piece": "entity",
-    "switch": "equipment", "machine": "equipment",
-    "cutting_machine": "machine", "painting_machine": "machine", "drying_machine": "machine",
-    "saw": "cutting_machine", "laser": "cutting_machine",
-    "sprayer": "painting_machine", "dip_tank": "painting_machine",
-    "oven": "drying_machine", "fan": "drying_machine",
-    "wooden": "piece", "metal": "piece",
-    "plank": "wooden", "beam": "wooden", "dowel": "wooden",
-    "rod": "metal", "sheet": "metal",
-}  # fmt: skip
+    "object": ["entity"],
+    "entity": ["robot", "equipment", "piece"],
+    "equipment": ["switch", "machine"],
+    "machine": ["cutting_machine", "painting_machine", "drying_machine"],
+    "cutting_machine": ["saw", "laser"],
+    "painting_machine": ["sprayer", "dip_tank"],
+    "drying_machine": ["oven", "fan"],
+    "piece": ["wooden", "metal"],
+    "wooden": ["plank", "beam", "dowel"],
+    "metal": ["rod", "sheet"],
+}
 
 # What each kind of machine does: the attribute of the piece that changes, from which value to which.
 WORK = {
@@ -35,6 +35,8 @@ WORK = {
 }
 UNSUITABLE = {("saw", "sheet")}  # a saw does not cut thin metal
 
+ACTIONS = {"pick": 1, "put": 1, "load": 2, "unload": 2, "press": 1}  # and how many things each is done to
+
 DEFAULT = {
     "machines": ["saw", "laser", "sprayer", "dip_tank", "oven", "fan"],
     "pieces": ["plank", "beam", "dowel", "rod", "sheet"],
@@ -43,29 +45,28 @@ DEFAULT = {
 
 
 class Refused(Exception):
-    """The action cannot be done now; nothing changed."""
+    """The action cannot be done now."""
+
+
+def need(condition, reason):
+    if not condition:
+        raise Refused(reason)
 
 
 class Workshop:
     def __init__(self, with_robot):
         self.with_robot = with_robot
-        self.types = {}  # no reset yet
+        self.reset({}, 0)
 
     def reset(self, scenario, seed):
         """Sets up the workshop. The seed decides the wiring of the switches and the places on the rack."""
-        unknown = set(scenario) - set(DEFAULT)
-        if unknown:
-            raise ValueError(f"the scenario has unknown fields: {', '.join(sorted(unknown))}")
         scenario = {**DEFAULT, **scenario}
-        for field, parents in (("machines", set(WORK)), ("pieces", {"wooden", "metal"})):
-            for kind in scenario[field]:
-                if TYPES.get(kind) not in parents:
-                    raise ValueError(f"in the scenario, {field}: there is no `{kind}`")
-        machines = numbered(scenario["machines"])
-        pieces = numbered(scenario["pieces"])
-        for machine in scenario["broken"]:
-            if machine not in machines:
-                raise ValueError(f"in the scenario, broken: there is no machine `{machine}`")
+        machines, pieces = numbered(scenario["machines"]), numbered(scenario["pieces"])
+        known = {"machines": DEFAULT["machines"], "pieces": DEFAULT["pieces"], "broken": machines}
+        for field, names in scenario.items():
+            for name in names:
+                if name not in known.get(field, ()):
+                    raise ValueError(f"the scenario's {field}: there is no `{name}`")
         chance = random.Random(seed)
         wired = chance.sample(list(machines), len(machines))
         slots = chance.sample(range(len(pieces)), len(pieces))
@@ -103,15 +104,11 @@ class Workshop:
     # The actions. Each either happens or raises Refused before anything has changed.
 
     def act(self, name, args):
-        if not self.types:
-            raise ValueError("the workshop has not been set up: reset comes first")
         if self.with_robot:
             need(args[:1] == ["robot_1"], "the first argument is who acts: robot_1")
             args = args[1:]
-        names = {"load": 2, "unload": 2, "press": 1, **({"pick": 1, "put": 1} if self.with_robot else {})}
-        need(name in names, f"there is no action {name}")
-        need(len(args) == names[name], f"{name} has {names[name]} arguments besides who acts, not {len(args)}")
-        need(all(isinstance(arg, str) for arg in args), "arguments are names")
+        need(name in ACTIONS and (self.with_robot or name not in ("pick", "put")), f"there is no action {name}")
+        need(len(args) == ACTIONS[name], f"{name} is done to {ACTIONS[name]} things, not {len(args)}")
         getattr(self, name)(*args)
 
     def pick(self, piece):
@@ -127,20 +124,16 @@ class Workshop:
     def load(self, machine, piece):
         need(machine in self.inside, f"{machine} is no machine")
         need(piece in self.piece, f"{piece} is no piece")
-        if self.with_robot:
-            need(self.held == piece, f"robot_1 does not hold {piece}")
-        else:
-            need(self.on_rack(piece), f"{piece} is not on the rack")
-        need(self.inside[machine] is None, f"{machine} already holds {self.inside[machine]}")
+        at_hand = self.held == piece if self.with_robot else self.on_rack(piece)
+        need(at_hand, f"{piece} is not {'held by robot_1' if self.with_robot else 'on the rack'}")
+        need(self.inside[machine] is None, f"{self.inside[machine]} is in {machine}")
         self.inside[machine], self.held = piece, None
 
     def unload(self, machine, piece):
-        need(machine in self.inside, f"{machine} is no machine")
-        need(self.inside[machine] == piece, f"{piece} is not in {machine}")
+        need(machine in self.inside and self.inside[machine] == piece, f"{piece} is not in {machine}")
         need(self.held is None, f"robot_1 already holds {self.held}")
         self.inside[machine], self.done[machine] = None, False
-        if self.with_robot:
-            self.held = piece
+        self.held = piece if self.with_robot else None
 
     def press(self, switch):
         """Starts the machine wired to the switch. Neither it nor the piece in it is named."""
@@ -152,15 +145,11 @@ class Workshop:
         if machine in self.broken:
             return  # it was pressed, but nothing happens
         need((self.types[machine], self.types[piece]) not in UNSUITABLE, f"{machine} does not take {piece}")
-        attribute, before, after = WORK[TYPES[self.types[machine]]]
+        kind = next(kind for kind in WORK if self.types[machine] in TYPES[kind])
+        attribute, before, after = WORK[kind]
         need(self.piece[piece][attribute] == before, f"{piece} is {self.piece[piece][attribute]}, not {before}")
         self.piece[piece][attribute] = after
         self.done[machine] = True
-
-
-def need(condition, reason):
-    if not condition:
-        raise Refused(reason)
 
 
 def numbered(kinds):
@@ -178,42 +167,41 @@ def answer(workshop, request):
         if request["protocol"] != "env/1":
             raise ValueError("this environment speaks env/1")
         return {"name": "workshop", "reset": True}
-    if op == "reset":
-        workshop.reset(request.get("scenario") or {}, request["seed"])
-        return {"state": workshop.snapshot()}
-    if op == "observe":
-        return {"state": workshop.snapshot()}
-    if op == "act":
-        try:
-            workshop.act(request["action"]["name"], request["action"]["args"])
-        except Refused as refused:
-            return {"state": workshop.snapshot(), "executed": False, "reason": str(refused)}
-        return {"state": workshop.snapshot(), "executed": True}
     if op == "close":
         return {}
-    raise ValueError(f"unknown op `{op}`")
+    outcome = {}
+    if op == "reset":
+        workshop.reset(request.get("scenario") or {}, request["seed"])
+    elif op == "act":
+        try:
+            workshop.act(request["action"]["name"], request["action"]["args"])
+            outcome = {"executed": True}
+        except Refused as refused:
+            outcome = {"executed": False, "reason": str(refused)}
+    elif op != "observe":
+        raise ValueError(f"unknown op `{op}`")
+    return {"state": workshop.snapshot(), **outcome}
 
 
 def serve(workshop):
     """Answers requests, one JSON object a line, until `close` or the end of the input."""
     for line in sys.stdin:
-        request = {}
+        request = json.loads(line)
         try:
-            request = json.loads(line)
             reply = {"ok": True, **answer(workshop, request)}
         except Exception as error:  # the conversation goes on
             reply = {"ok": False, "error": f"{type(error).__name__}: {error}"}
-        print(json.dumps({"id": request.get("id", 0), **reply}, separators=(",", ":")), flush=True)
-        if request.get("op") == "close":
+        print(json.dumps({"id": request["id"], **reply}), flush=True)
+        if request["op"] == "close":
             return
 
 
-# What is demonstrated: the pieces and machines at hand, and what is done with each piece. A machine in brackets is
-# loaded by mistake: the piece is taken out again unworked. "rack" puts a piece back on the rack.
+# What is demonstrated: the way of a piece. In a machine it is worked on; in one in brackets it is not, since that was
+# the wrong machine: it is taken out as it was. In the end it is put on the rack.
 DEMONSTRATIONS = {
-    "cut-a-plank": (["plank"], ["saw", "sprayer"], {"plank_1": ["saw", "rack", "(sprayer)"]}),
-    "cut-paint-and-dry-a-beam": (["beam"], ["saw", "sprayer", "oven"], {"beam_1": ["saw", "sprayer", "oven"]}),
-    "paint-and-dry-a-rod": (["rod"], ["saw", "sprayer", "oven"], {"rod_1": ["sprayer", "(saw)", "oven"]}),
+    "cut-a-plank": ("plank", ["saw", "rack", "(sprayer)", "rack"]),
+    "cut-paint-and-dry-a-beam": ("beam", ["saw", "sprayer", "oven", "rack"]),
+    "paint-and-dry-a-rod": ("rod", ["sprayer", "(saw)", "oven", "rack"]),
 }
 
 # Tasks: the scenario and the goal.
@@ -226,53 +214,50 @@ TASKS = {
 
 
 def demonstrate(workshop, folder):
+    """Writes the types, a trace/1 file for each demonstration and a task/1 file for each task."""
     folder.mkdir(parents=True, exist_ok=True)
-    types = {kind: parent for kind, parent in TYPES.items() if workshop.with_robot or kind != "robot"}
-    lines = [f"  {kind} - {parent}" for kind, parent in types.items()]
-    (folder / "types.pddl").write_text("(:types\n" + "\n".join(lines) + ")\n")
-    for number, (task, (pieces, machines, work)) in enumerate(DEMONSTRATIONS.items(), start=1):
-        workshop.reset({"pieces": pieces, "machines": machines}, number)
+    types = "\n".join(f"  {' '.join(children)} - {parent}" for parent, children in TYPES.items())
+    types = types if workshop.with_robot else types.replace("robot ", "")
+    (folder / "types.pddl").write_text(f"(:types\n{types})\n")
+    for seed, (name, (kind, way)) in enumerate(DEMONSTRATIONS.items()):
+        machines = [stop.strip("()") for stop in way if stop != "rack"]
+        workshop.reset({"pieces": [kind], "machines": machines}, seed)
+        piece = f"{kind}_1"
         records = [{"state": workshop.snapshot()}]
-        for name, args in (action for piece, path in work.items() for action in steps(workshop, piece, path)):
-            args = (["robot_1"] if workshop.with_robot else []) + args
-            workshop.act(name, args)
-            records += [{"action": {"name": name, "args": args}, "executed": True}, {"state": workshop.snapshot()}]
-        goal = [f"{attribute}_{value}({piece})" for piece in work for attribute, value in workshop.piece[piece].items()]
-        header = {"format": "trace/1", "task": task.replace("-", " "), "goal": goal}
-        text = "".join(json.dumps(record, separators=(",", ":")) + "\n" for record in [header, *records])
-        (folder / f"{task}.jsonl").write_text(text)
-    for task, (scenario, goal) in TASKS.items():
-        workshop.reset(scenario, 0)
-        record = {"format": "task/1", "goal": goal, "scenario": scenario, "seed": 0, "state": workshop.snapshot()}
-        (folder / f"{task}.json").write_text(json.dumps(record, indent=1) + "\n")
+        for action, args in steps(workshop, piece, way):
+            args = ["robot_1", *args] if workshop.with_robot else args
+            workshop.act(action, args)
+            records += [{"action": {"name": action, "args": args}, "executed": True}, {"state": workshop.snapshot()}]
+        goal = [f"{attribute}_{value}({piece})" for attribute, value in workshop.piece[piece].items()]
+        records.insert(0, {"format": "trace/1", "task": name.replace("-", " "), "goal": goal})
+        (folder / f"{name}.jsonl").write_text("".join(json.dumps(record) + "\n" for record in records))
+    for name, (scenario, goal) in TASKS.items():
+        workshop.reset(scenario, seed=0)
+        task = {"format": "task/1", "goal": goal, "scenario": scenario, "seed": 0, "state": workshop.snapshot()}
+        (folder / f"{name}.json").write_text(json.dumps(task).replace('{"id"', '\n{"id"') + "\n")
 
 
-def steps(workshop, piece, path):
-    """The actions that lead a piece from machine to machine."""
-    for stop in [*path, "rack"]:
-        if workshop.with_robot and stop == "rack":
-            yield "put", [piece]
-        elif stop != "rack":
-            if workshop.with_robot and workshop.held is None:
-                yield "pick", [piece]
-            machine = stop.strip("()") + "_1"
-            yield "load", [machine, piece]
-            if stop[0] != "(":
-                yield "press", [next(switch for switch, wired in workshop.wired.items() if wired == machine)]
-            yield "unload", [machine, piece]
-
-
-def main():
-    args = sys.argv[1:]
-    workshop = Workshop(with_robot="--no-robot" not in args)
-    args = [arg for arg in args if arg != "--no-robot"]
-    if not args:
-        serve(workshop)
-    elif len(args) == 2 and args[0] == "demonstrate":
-        demonstrate(workshop, pathlib.Path(args[1]))
-    else:
-        sys.exit(__doc__)
+def steps(workshop, piece, way):
+    """The actions that lead a piece along its way."""
+    for stop in way:
+        if stop == "rack":
+            yield from [("put", [piece])] if workshop.with_robot else []
+            continue
+        if workshop.with_robot and workshop.held is None:
+            yield "pick", [piece]
+        machine = f"{stop.strip('()')}_1"
+        yield "load", [machine, piece]
+        if stop[0] != "(":
+            yield "press", [next(switch for switch, wired in workshop.wired.items() if wired == machine)]
+        yield "unload", [machine, piece]
 
 
 if __name__ == "__main__":
-    main()
+    arguments = [argument for argument in sys.argv[1:] if argument != "--no-robot"]
+    the_workshop = Workshop(with_robot="--no-robot" not in sys.argv)
+    if not arguments:
+        serve(the_workshop)
+    elif len(arguments) == 2 and arguments[0] == "demonstrate":
+        demonstrate(the_workshop, pathlib.Path(arguments[1]))
+    else:
+        sys.exit(__doc__)

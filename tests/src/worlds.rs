@@ -34,9 +34,7 @@ impl Watched {
     }
 
     /// A kitchen in which an action does what `meddle` says.
-    pub fn with(
-        meddle: impl FnMut(&mut Kitchen, &GroundCall) -> Result<Acted, WorldError> + Send + 'static,
-    ) -> Self {
+    pub fn with(meddle: impl FnMut(&mut Kitchen, &GroundCall) -> Result<Acted, WorldError> + Send + 'static) -> Self {
         Self { kitchen: Kitchen::new(), told: Vec::new(), resets: 0, meddle: Box::new(meddle) }
     }
 

@@ -6,14 +6,10 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use typelift::agent::{
-    Account, Command, Confirmation, Ending, Episode, Event, Experience, Input, Options, StepResult,
-};
+use typelift::agent::{Account, Command, Confirmation, Ending, Episode, Event, Experience, Input, Options, StepResult};
 use typelift::imagine;
 use typelift::learn::{evidence_of, learn};
-use typelift::model::{
-    ActionModel, Budget, GroundAtom, GroundCall, Hierarchy, ParseConfig, Plan, State, Step, Symbol,
-};
+use typelift::model::{ActionModel, Budget, GroundAtom, GroundCall, Hierarchy, ParseConfig, Plan, State, Step, Symbol};
 use typelift::plan::Exclusion;
 use typelift::world::{Acted, Dataset, Parser, Scene, Trace, TraceAction, World};
 use typelift_kitchen::{Kitchen, KitchenTask, faults, tasks};
@@ -121,4 +117,530 @@ fn without_imagination_one_failure_is_the_end() {
             }
         }
     }
+}
+
+// Going on from where it is, as outside the experiments.
+
+/// Scenario, proposals, and the length of the last plan.
+const GOING_ON: [(&str, &[u64], usize); 4] = [
+    ("broken_cutboard_lettuce", &[2], 5),
+    ("broken_cutboard_tomato_onion", &[2], 10),
+    ("broken_cutboard_lettuce_bread", &[2], 13),
+    ("broken_cutboard_breadslicer_lettuce", &[2, 3], 5),
+];
+
+#[test]
+fn going_on_food_is_taken_out_of_the_broken_tool() {
+    for (name, proposals, length) in GOING_ON {
+        for seed in SEEDS {
+            let mut world = Watched::new();
+            let Ran { account, .. } = ran(&mut world, &fault(name), seed, &going_on(), Experience::new());
+            println!("{name} {seed}: {} proposals after {:?}", account.proposals, failed_calls(&account));
+            assert!(account.solved(), "{name}, seed {seed}: {:?}", account.ending);
+            assert!(proposals.contains(&account.proposals), "{name}, seed {seed}: {}", account.proposals);
+            assert_eq!(account.plan.as_ref().map(Plan::len), Some(length), "{name}, seed {seed}");
+            assert_eq!(world.resets, 1, "nothing is undone");
+            for failure in &account.failures {
+                let (tool, food) = (&failure.call.args[1], &failure.call.args[2]);
+                let from_use = Exclusion { object: tool.clone(), call: Some(Symbol::new("USE")) };
+                assert_eq!(failure.excluded, [from_use], "{name}, seed {seed}");
+                assert_eq!(world.times_told(&failure.call), 2, "once, and once more");
+                let agent = failure.call.args[0].clone();
+                let taken = GroundCall { name: Symbol::new("PICK"), args: vec![agent, tool.clone(), food.clone()] };
+                assert_eq!(world.times_told(&taken), 1, "{taken}");
+            }
+        }
+    }
+}
+
+#[test]
+fn going_on_what_was_spoilt_is_the_end() {
+    // A chopped carrot cannot be blended; of two breads in the broken toaster the lower one is out of reach of
+    // anything that was learned.
+    for (name, lost) in [
+        ("broken_blender_carrot", "blend_state_Mashed(carrot_1)"),
+        ("broken_toaster_two_breads", "toast_state_Toasted(bread_"),
+    ] {
+        for seed in SEEDS {
+            let Ran { account, .. } = ran_alone(name, seed, &going_on());
+            assert!(!account.failures.is_empty(), "{name}, seed {seed}");
+            let Ending::NoPlan(why) = &account.ending else { panic!("{name}: {:?}", account.ending) };
+            assert!(why.to_string().contains(lost), "{name}, seed {seed}: {why}");
+        }
+    }
+}
+
+// From task to task.
+
+/// Two tasks of one run, the second with what the first taught: both accounts, and what was told in each.
+fn one_after_the_other(tasks: [&KitchenTask; 2], seed: u64, options: &Options) -> [(Ran, Vec<GroundCall>); 2] {
+    let mut experience = Experience::new();
+    tasks.map(|task| {
+        let mut world = Watched::new();
+        let ran = ran(&mut world, task, seed, options, experience.clone());
+        experience = ran.experience.clone();
+        (ran, world.told)
+    })
+}
+
+#[test]
+fn what_failed_in_one_task_is_not_repeated_in_the_next() {
+    let runs = [
+        ("exception_coconut", "exception_coconut_lettuce", paper_options(true)),
+        ("exception_hokkaido", "exception_hokkaido", paper_options(true)),
+        ("broken_cutboard_lettuce", "broken_cutboard_tomato_onion", paper_options(true)),
+        ("broken_cutboard_lettuce", "broken_cutboard_tomato_onion", going_on()),
+        ("broken_cutboard_breadslicer_lettuce", "broken_cutboard_breadslicer_lettuce", going_on()),
+        ("broken_toaster_bread", "broken_toaster_two_breads", paper_options(true)),
+    ];
+    for (first, second, options) in runs {
+        for seed in SEEDS {
+            let [(a, _), (b, told)] = one_after_the_other([&fault(first), &fault(second)], seed, &options);
+            let context = format!("{first}, then {second}, seed {seed}, restart {}", options.restart);
+            assert!(a.account.solved() && b.account.solved(), "{context}");
+            assert!(!a.account.failures.is_empty(), "{context}: there is something to remember");
+            for failure in &a.account.failures {
+                assert!(!told.contains(&failure.call), "{context}: {} again", failure.call);
+            }
+            assert_eq!((b.account.proposals, b.account.failures.len()), (1, 0), "{context}: known from the start");
+            assert!(!b.account.lifted, "{context}");
+        }
+    }
+}
+
+#[test]
+fn exclusions_of_earlier_tasks_are_lifted_when_nothing_else_is_left() {
+    // The coconut taught to use the machete alone; then that breaks too.
+    let mut lettuce = fault("broken_cutboard_lettuce");
+    lettuce.scenario["broken"] = serde_json::json!(["machete_1"]);
+    for seed in SEEDS {
+        let runs = one_after_the_other([&fault("exception_coconut"), &lettuce], seed, &paper_options(true));
+        let [(coconut, _), (ran, told)] = runs;
+        assert!(coconut.account.solved() && !coconut.account.lifted);
+        assert!(ran.account.solved() && ran.account.lifted, "seed {seed}: {:?}", ran.account.ending);
+        assert_eq!(ran.events.iter().filter(|event| **event == Event::Lifted).count(), 1);
+        // Everything that was never tried comes first.
+        assert_eq!(failed_calls(&ran.account)[0], "USE(agent_1, machete_1, lettuce_1)");
+        let plan = ran.account.plan.as_ref().expect("solved");
+        let excluded = blamed(&coconut.account);
+        assert!(plan.steps.iter().any(|step| excluded.contains(step.call.args[1].as_str())), "one of those was used");
+        // Bans stay: what failed was no matter of the tool alone.
+        assert!(ran.experience.bans().count() > ran.account.failures.len());
+        assert!(coconut.account.failures.iter().all(|failure| !told.contains(&failure.call)));
+    }
+}
+
+// Worlds that fail once, and retries.
+
+#[test]
+fn a_failing_step_is_tried_as_often_as_asked() {
+    for (retries, restart, times) in
+        [(Some(2), false, 3), (Some(2), true, 3), (Some(0), false, 1), (None, false, 2), (None, true, 1)]
+    {
+        let options = Options { retries, restart, ..going_on() };
+        let mut world = Watched::new();
+        let Ran { account, events, experience, .. } =
+            ran(&mut world, &fault("broken_cutboard_lettuce"), 1, &options, Experience::new());
+        assert!(account.solved());
+        let [failure] = account.failures.as_slice() else { panic!("{:?}", account.failures) };
+        assert_eq!(failure.call.to_string(), "USE(agent_1, cutboard_1, lettuce_1)");
+        assert_eq!(failure.result, StepResult::Refused);
+        assert_eq!(world.times_told(&failure.call), times, "retries {retries:?}, restart {restart}");
+        let retried = events.iter().filter(|event| matches!(event, Event::Retried { .. })).count();
+        assert_eq!(retried, times - 1);
+        // Three attempts are one failure.
+        let counts: Vec<u64> = experience.exclusions().map(|(_, why)| why.count).collect();
+        assert_eq!(counts, [1]);
+    }
+}
+
+#[test]
+fn what_fails_once_is_repaired_by_trying_again() {
+    let task = fault("T1.4");
+    let length = 10;
+    for lost in 1..=length {
+        // The action with this number gets lost; the world claims to have done it, or not.
+        for claims in [true, false] {
+            let mut number = 0;
+            let mut world = Watched::with(move |kitchen, call| {
+                number += 1;
+                if number != lost {
+                    return kitchen.act(call);
+                }
+                let reason = (!claims).then(|| "slipped".to_owned());
+                Ok(Acted { scene: kitchen.observe()?, executed: claims, reason })
+            });
+            let Ran { account, experience, events, .. } =
+                ran(&mut world, &task, 0, &Options::default(), Experience::new());
+            assert!(account.solved(), "action {lost}: {:?}", account.ending);
+            assert_eq!((account.proposals, account.actions), (1, length + 1), "action {lost}");
+            assert!(account.failures.is_empty() && experience == Experience::new(), "nothing is blamed");
+            let missed = if claims { StepResult::NothingChanged } else { StepResult::Refused };
+            let results: Vec<StepResult> = events
+                .iter()
+                .filter_map(|event| match event {
+                    Event::Stepped { result, .. } if *result != StepResult::AsExpected => Some(*result),
+                    _ => None,
+                })
+                .collect();
+            assert_eq!(results, [missed], "action {lost}");
+        }
+    }
+}
+
+// People who say no.
+
+fn first_imagined(plan: &Plan) -> Option<usize> {
+    plan.steps.iter().position(|step| step.imagined.is_some())
+}
+
+#[test]
+fn a_rejected_step_is_not_proposed_again() {
+    for options in [paper_options(true), going_on()] {
+        let (model, task) = (Arc::new(kitchen_model(false)), fault("broken_cutboard_lettuce"));
+        let mut world = Watched::new();
+        let (mut rejected, mut proposed): (Option<Step>, Vec<Plan>) = (None, Vec::new());
+        let mut confirm = |plan: &Plan| {
+            proposed.push(plan.clone());
+            match first_imagined(plan) {
+                Some(at) if rejected.is_none() => {
+                    rejected = Some(plan.steps[at].clone());
+                    Confirmation::Reject { step: at + 1, reason: "not with that".to_owned() }
+                }
+                _ => Confirmation::Approve,
+            }
+        };
+        let Ran { account, .. } = run_in(&mut world, &model, &task, 0, &options, Experience::new(), &mut confirm);
+        let rejected = rejected.expect("something is imagined when the cutboard is broken");
+        assert!(account.solved(), "{:?}", account.ending);
+        assert_eq!(proposed.len(), 3);
+        let again =
+            |plan: &Plan| plan.steps.iter().any(|s| s.action == rejected.action && s.objects == rejected.objects);
+        assert!(again(&proposed[1]) && !again(&proposed[2]));
+        assert!(!world.told.contains(&rejected.call), "it was never executed");
+        let failure = &account.failures[1];
+        assert_eq!((failure.result, failure.reason.as_deref()), (StepResult::Rejected, Some("not with that")));
+        assert!(failure.imagined && failure.call == rejected.call);
+    }
+}
+
+#[test]
+fn whoever_is_asked_can_stop_it() {
+    for restart in [true, false] {
+        let (model, task) = (Arc::new(kitchen_model(false)), fault("broken_cutboard_lettuce"));
+        let options = Options { restart, ..going_on() };
+        let mut world = Watched::new();
+        let mut confirm =
+            |plan: &Plan| if first_imagined(plan).is_some() { Confirmation::Stop } else { Confirmation::Approve };
+        let Ran { account, .. } = run_in(&mut world, &model, &task, 0, &options, Experience::new(), &mut confirm);
+        assert_eq!(account.ending, Ending::Stopped);
+        assert_eq!((account.proposals, account.failures.len()), (2, 1), "what went before is in the account");
+    }
+}
+
+// Worlds that change by themselves.
+
+/// Somebody else moves an item to another counter.
+fn carry(kitchen: &mut Kitchen, item: &str, to: &str) {
+    let room = kitchen.room().expect("a room");
+    let agent = room.agent_name().clone();
+    let from = room.container_of(item).expect("it lies somewhere").clone();
+    for (name, container) in [("PICK", &from), ("PLACE", &Symbol::new(to))] {
+        let args = vec![agent.clone(), container.clone(), Symbol::new(item)];
+        let acted = kitchen.act(&GroundCall { name: Symbol::new(name), args }).expect("a room");
+        assert!(acted.executed, "{:?}", acted.reason);
+    }
+}
+
+/// A counter on which nothing lies.
+fn empty_counter(kitchen: &Kitchen) -> String {
+    let room = kitchen.room().expect("a room");
+    let taken: BTreeSet<String> = room
+        .snapshot()
+        .entities
+        .iter()
+        .filter_map(|e| room.container_of(e.id.as_str()))
+        .map(Symbol::to_string)
+        .collect();
+    let counters = (1..=18).map(|number| format!("counter_{number}"));
+    // Corners are out of reach; of six empty ones two are not.
+    let is_corner = |name: &str| {
+        let snapshot = room.snapshot();
+        let entity = snapshot.entities.iter().find(|e| e.id == *name).expect("a counter").clone();
+        let place = format!("{:?}", entity.attributes["location"]);
+        ["[0.0, 0.0]", "[0.0, 6.0]", "[6.0, 0.0]", "[6.0, 6.0]"].iter().any(|corner| place.contains(corner))
+    };
+    counters
+        .into_iter()
+        .find(|name| !taken.contains(name) && !is_corner(name))
+        .expect("there are 18 counters and 8 items")
+}
+
+#[test]
+fn what_moves_by_itself_is_planned_around_without_blame() {
+    for seed in SEEDS {
+        // When the first food is served, the other is carried away.
+        let mut served = false;
+        let mut world = Watched::with(move |kitchen, call| {
+            let mut acted = kitchen.act(call)?;
+            if call.args[1] == *"plate_1" && !std::mem::replace(&mut served, true) {
+                let other = if call.args[2] == *"tomato_1" { "onion_1" } else { "tomato_1" };
+                let to = empty_counter(kitchen);
+                carry(kitchen, other, &to);
+                acted.scene = kitchen.observe()?;
+            }
+            Ok(acted)
+        });
+        let Ran { account, experience, events, .. } =
+            ran(&mut world, &fault("T1.4"), seed, &Options::default(), Experience::new());
+        assert!(account.solved(), "seed {seed}: {:?}", account.ending);
+        assert_eq!((account.proposals, account.actions), (2, 10), "seed {seed}: no action was in vain");
+        assert!(account.failures.is_empty() && experience == Experience::new(), "seed {seed}: nothing is blamed");
+        let drifted: Vec<_> = events
+            .iter()
+            .filter_map(|event| match event {
+                Event::Drifted { step, missing } => Some((*step, missing.as_str())),
+                _ => None,
+            })
+            .collect();
+        assert_eq!(drifted.len(), 1, "seed {seed}: {drifted:?}");
+        assert_eq!(drifted[0].0, 6, "seed {seed}");
+        assert!(drifted[0].1.contains("content_holds(counter_"), "seed {seed}: {drifted:?}");
+    }
+}
+
+#[test]
+fn what_is_done_already_is_not_done_again() {
+    // Somebody else serves what the agent was about to serve: when the lettuce is chopped, the rest happens by itself.
+    let mut world = Watched::with(|kitchen, call| {
+        let mut acted = kitchen.act(call)?;
+        if call.name == *"USE" {
+            carry(kitchen, call.args[2].as_str(), "plate_1");
+            acted.scene = kitchen.observe()?;
+        }
+        Ok(acted)
+    });
+    let Ran { account, .. } = ran(&mut world, &fault("T1.1"), 0, &Options::default(), Experience::new());
+    assert!(account.solved() && account.failures.is_empty(), "{:?}", account);
+    assert_eq!(account.actions, 3);
+}
+
+// The state machine, fed by hand. A saw cuts rods and planks; there are two saws, and a beam.
+
+fn saws() -> (Arc<ActionModel>, Parser) {
+    let edges = [("rod", "piece"), ("plank", "piece"), ("beam", "piece"), ("saw", "machine"), ("cat", "guest")];
+    let hierarchy = Hierarchy::from_edges(edges).expect("a tree");
+    let mut parser = Parser::new(hierarchy.clone(), ParseConfig::default());
+    let mut shown = Dataset { hierarchy: hierarchy.clone(), ..Dataset::default() };
+    for kind in ["rod", "plank"] {
+        let mut scene = |atom: &str| {
+            let objects = [("saw_1", "saw"), ("it", kind)].map(|(o, t)| (Symbol::new(o), Symbol::new(t))).into();
+            let atoms = [GroundAtom::new(atom, vec![Symbol::new("it")])].into();
+            parser.parse(&Scene::Symbolic { objects, atoms, unknown: BTreeSet::new() }).expect("a state")
+        };
+        let states = vec![scene("whole"), scene("cut")];
+        let call = cut("saw_1", "it");
+        let actions = vec![TraceAction { call, executed: None, reason: None, time: None }];
+        shown.traces.push(Trace { states, actions, ..Trace::default() });
+    }
+    let learned = learn(&hierarchy, evidence_of(&shown), &Default::default()).expect("a model");
+    (Arc::new(learned.model), parser)
+}
+
+fn cut(saw: &str, it: &str) -> GroundCall {
+    GroundCall { name: Symbol::new("cut"), args: vec![Symbol::new(saw), Symbol::new(it)] }
+}
+
+fn bench(parser: &mut Parser, objects: &[(&str, &str)], atoms: &[&str]) -> State {
+    let objects = objects.iter().map(|(o, t)| (Symbol::new(o), Symbol::new(t))).collect();
+    let atoms = atoms.iter().map(|atom| GroundAtom::parse(atom).expect("an atom")).collect();
+    parser.parse(&Scene::Symbolic { objects, atoms, unknown: BTreeSet::new() }).expect("a state")
+}
+
+/// An episode with a beam and two saws, and the states in which the beam is whole and cut.
+struct ByHand {
+    episode: Episode,
+    whole: State,
+    cut: State,
+    parser: Parser,
+}
+
+const BENCH: [(&str, &str); 3] = [("saw_1", "saw"), ("saw_2", "saw"), ("b", "beam")];
+
+impl ByHand {
+    fn new(options: Options) -> Self {
+        let (model, mut parser) = saws();
+        let goal = vec![GroundAtom::parse("cut(b)").expect("an atom")];
+        let episode = Episode::new(model, goal, options, Experience::new(), Budget::unlimited());
+        let (whole, cut) = (bench(&mut parser, &BENCH, &["whole(b)"]), bench(&mut parser, &BENCH, &["cut(b)"]));
+        Self { episode, whole, cut, parser }
+    }
+
+    /// One that has started to cut with the first saw.
+    fn cutting(options: Options) -> Self {
+        let mut this = Self::new(options);
+        assert_eq!(this.step(Input::Started), Command::Reset);
+        let whole = this.whole.clone();
+        assert_eq!(this.proposed(Input::Observation(whole)), [cut("saw_1", "b")]);
+        assert_eq!(this.step(Input::Approve), Command::Act(cut("saw_1", "b")));
+        this
+    }
+
+    fn step(&mut self, input: Input) -> Command {
+        self.episode.step(input, &mut ()).expect("the planner does not err")
+    }
+
+    fn proposed(&mut self, input: Input) -> Vec<GroundCall> {
+        match self.step(input) {
+            Command::Propose(plan) => plan.steps.into_iter().map(|step| step.call).collect(),
+            other => panic!("{other:?}"),
+        }
+    }
+
+    fn done(&mut self, input: Input) -> Account {
+        match self.step(input) {
+            Command::Done(account) => *account,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    fn refused(&self) -> Input {
+        Input::Refused { reason: "jammed".to_owned(), state: self.whole.clone() }
+    }
+}
+
+#[test]
+fn a_goal_that_holds_needs_nothing() {
+    let mut it = ByHand::new(Options::default());
+    assert_eq!(it.step(Input::Started), Command::Reset);
+    let cut = it.cut.clone();
+    let account = it.done(Input::Observation(cut));
+    assert!(account.solved() && account.proposals == 0 && account.plan == Some(Plan::default()));
+}
+
+#[test]
+fn a_refusal_is_tried_again_then_blamed() {
+    let mut it = ByHand::cutting(Options::default());
+    let refused = it.refused();
+    assert_eq!(it.step(refused.clone()), Command::Act(cut("saw_1", "b")), "once more");
+    assert_eq!(it.proposed(refused), [cut("saw_2", "b")]);
+    assert_eq!(it.step(Input::Approve), Command::Act(cut("saw_2", "b")));
+    let after = it.cut.clone();
+    let account = it.done(Input::Observation(after));
+    assert!(account.solved());
+    assert_eq!((account.proposals, account.actions), (2, 3));
+    let [failure] = account.failures.as_slice() else { panic!("{:?}", account.failures) };
+    assert_eq!((failure.result, failure.reason.as_deref()), (StepResult::Refused, Some("jammed")));
+    let blamed = Exclusion { object: Symbol::new("saw_1"), call: Some(Symbol::new("cut")) };
+    assert_eq!(failure.excluded, [blamed]);
+    let (_, why) = it.episode.experience().exclusions().next().expect("one");
+    assert_eq!((why.reason.as_str(), why.count), ("cut(saw_1, b) jammed", 1));
+}
+
+#[test]
+fn when_every_saw_is_jammed_it_ends_with_a_reason() {
+    for restart in [true, false] {
+        let mut it = ByHand::cutting(Options { restart, retries: Some(0), ..Options::default() });
+        let (refused, whole) = (it.refused(), it.whole.clone());
+        if restart {
+            assert_eq!(it.step(refused.clone()), Command::Reset);
+            assert_eq!(it.proposed(Input::Observation(whole.clone())), [cut("saw_2", "b")]);
+        } else {
+            assert_eq!(it.proposed(refused.clone()), [cut("saw_2", "b")]);
+        }
+        assert_eq!(it.step(Input::Approve), Command::Act(cut("saw_2", "b")));
+        let account = if restart {
+            assert_eq!(it.step(refused), Command::Reset);
+            it.done(Input::Observation(whole))
+        } else {
+            it.done(refused)
+        };
+        assert_eq!(failed_calls(&account), ["cut(saw_1, b)", "cut(saw_2, b)"]);
+        let Ending::NoPlan(why) = &account.ending else { panic!("{:?}", account.ending) };
+        assert!(why.to_string().contains("there is no saw that may be used"), "{why}");
+    }
+}
+
+#[test]
+fn the_state_is_believed_not_the_refusal() {
+    let mut it = ByHand::cutting(Options::default());
+    let state = it.cut.clone();
+    let account = it.done(Input::Refused { reason: "I think it went wrong".to_owned(), state });
+    assert!(account.solved() && account.failures.is_empty());
+}
+
+#[test]
+fn after_a_time_out_it_looks() {
+    // It had worked.
+    let mut it = ByHand::cutting(Options::default());
+    assert_eq!(it.step(Input::TimedOut), Command::Observe);
+    assert_eq!(it.step(Input::TimedOut), Command::Observe, "until something is seen");
+    let cut_state = it.cut.clone();
+    assert!(it.done(Input::Observation(cut_state)).solved());
+
+    // It had not: tried again, then blamed.
+    let mut it = ByHand::cutting(Options::default());
+    let whole = it.whole.clone();
+    assert_eq!(it.step(Input::TimedOut), Command::Observe);
+    assert_eq!(it.step(Input::Observation(whole.clone())), Command::Act(cut("saw_1", "b")));
+    assert_eq!(it.step(Input::TimedOut), Command::Observe);
+    assert_eq!(it.proposed(Input::Observation(whole)), [cut("saw_2", "b")]);
+    let account = it.done(Input::Stop);
+    assert_eq!(account.ending, Ending::Stopped);
+    assert_eq!(account.failures.iter().map(|f| f.result).collect::<Vec<_>>(), [StepResult::TimedOut]);
+    assert_eq!(account.actions, 2);
+}
+
+#[test]
+fn a_rejection_before_anything_was_done_needs_no_reset() {
+    for restart in [true, false] {
+        let mut it = ByHand::new(Options { restart, ..Options::default() });
+        let whole = it.whole.clone();
+        it.step(Input::Started);
+        assert_eq!(it.proposed(Input::Observation(whole)), [cut("saw_1", "b")]);
+        let reject = |step| Input::Reject { step, reason: "blunt".to_owned() };
+        // A step that there is not counts as the nearest that there is.
+        assert_eq!(it.proposed(reject(99)), [cut("saw_2", "b")]);
+        let account = it.done(reject(0));
+        assert!(has_reason(&account.ending));
+        assert_eq!((account.actions, account.failures.len()), (0, 2));
+    }
+}
+
+#[test]
+fn inputs_that_do_not_fit_change_nothing() {
+    let mut it = ByHand::new(Options::default());
+    let (whole, after) = (it.whole.clone(), it.cut.clone());
+    assert_eq!(it.step(Input::Observation(after.clone())), Command::Reset, "nothing is believed before the start");
+    assert_eq!(it.step(Input::Approve), Command::Observe);
+    let plan = it.proposed(Input::Observation(whole));
+    assert_eq!(it.proposed(Input::Observation(after.clone())), plan);
+    assert_eq!(it.proposed(Input::TimedOut), plan);
+    assert_eq!(it.step(Input::Approve), Command::Act(cut("saw_1", "b")));
+    let account = it.done(Input::Observation(after));
+    assert!(account.solved());
+    for input in [Input::Started, Input::Approve, Input::TimedOut] {
+        assert_eq!(it.done(input), account, "what is over stays over");
+    }
+}
+
+#[test]
+fn objects_come_and_go() {
+    let mut it = ByHand::cutting(Options::default());
+    // The saw at work vanishes, a cat arrives.
+    let objects = [("saw_2", "saw"), ("b", "beam"), ("cat_1", "cat")];
+    let state = bench(&mut it.parser, &objects, &["whole(b)"]);
+    assert_eq!(it.proposed(Input::Observation(state)), [cut("saw_2", "b")]);
+    assert_eq!(it.step(Input::Approve), Command::Act(cut("saw_2", "b")));
+    // Then the beam does.
+    let state = bench(&mut it.parser, &[("saw_2", "saw")], &[]);
+    let account = it.done(Input::Observation(state));
+    assert!(has_reason(&account.ending), "{:?}", account.ending);
+}
+
+#[test]
+fn the_number_of_proposals_is_limited() {
+    let mut it = ByHand::cutting(Options { max_proposals: 1, retries: Some(0), ..Options::default() });
+    let refused = it.refused();
+    assert_eq!(it.done(refused).ending, Ending::ProposalLimit(1));
 }

@@ -258,7 +258,7 @@ impl Episode {
     /// Plans; where there is no plan, without the exclusions of earlier tasks; and where an episode that goes on from
     /// where it is still finds none, without strictness.
     fn plan_with_last_resorts(&mut self, observer: &mut dyn Observer) -> Result<Proposal, ProposeError> {
-        let none = |proposal: &Proposal| proposal.outcome == Outcome::Unsolvable;
+        let none = |proposal: &Proposal| matches!(proposal.outcome, Outcome::Unsolvable | Outcome::GaveUp);
         let mut proposal = self.plan_once(&self.options.clone(), observer)?;
         if none(&proposal) && self.inherited.exclusions().next().is_some() {
             let mut lifted = self.experience.clone();

@@ -12,7 +12,12 @@ use typelift_world::World;
 
 /// A shell that started another shell that started a third process; their ids.
 fn family(rest: &str) -> (Bridge, [String; 3], Receiver<String>) {
-    let script = format!("echo $$ >&2; sh -c 'sleep 1000 & echo $$ $! >&2; wait' & hello; {rest}");
+    prepared_family(":", rest)
+}
+
+/// The same; the shell first runs `before`.
+fn prepared_family(before: &str, rest: &str) -> (Bridge, [String; 3], Receiver<String>) {
+    let script = format!("{before}; echo $$ >&2; sh -c 'sleep 1000 & echo $$ $! >&2; wait' & hello; {rest}");
     let (bridge, said) = start(&sh(&script), Options::default()).expect("started");
     let mut pids: Vec<String> = Vec::new();
     while pids.len() < 3 {
@@ -34,7 +39,7 @@ fn dropping_ends_the_whole_family() {
 
 #[test]
 fn even_one_that_does_not_want_to_go() {
-    let (bridge, pids, _) = family("trap '' TERM INT HUP; while :; do sleep 1; done");
+    let (bridge, pids, _) = prepared_family("trap '' TERM INT HUP", "while :; do sleep 1; done");
     let start = Instant::now();
     drop(bridge);
     pids.iter().for_each(|pid| assert_gone(pid));
@@ -43,7 +48,7 @@ fn even_one_that_does_not_want_to_go() {
 
 #[test]
 fn one_that_wants_to_go_orderly_may() {
-    let (bridge, pids, said) = family("trap 'echo parked >&2; exit 0' TERM; while :; do sleep 0.05; done");
+    let (bridge, pids, said) = prepared_family("trap 'echo parked >&2; exit 0' TERM", "while :; do sleep 0.05; done");
     drop(bridge);
     pids.iter().for_each(|pid| assert_gone(pid));
     assert!(said.iter().any(|line| line == "[shop] parked"));

@@ -93,6 +93,11 @@ impl Interrupt {
 }
 
 impl Limits {
+    /// The same, with at most so many expansions a search unless the user said otherwise.
+    pub(crate) fn with_default_expansions(self, expansions: u64) -> Self {
+        Self { max_expansions: self.max_expansions.or(Some(expansions)), ..self }
+    }
+
     /// The budget that these limits leave, counted from the program's start.
     pub(crate) fn budget(self, clock: Clock, interrupt: &Interrupt) -> Budget {
         let interrupt = interrupt.clone();

@@ -23,6 +23,9 @@ use crate::narrate::Narrator;
 use crate::plan_text::{numbered_steps, plan_size};
 use crate::style::{BAD, DIM, GOOD, HEAD, count};
 
+/// Expansions of one search, unless the user says otherwise: an agent that acts must not think for ever.
+const EXPANSIONS: u64 = 200_000;
+
 /// Carry out tasks in an environment
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
@@ -31,7 +34,8 @@ use crate::style::{BAD, DIM, GOOD, HEAD, count};
   typelift run model.json task.json --env 'python3 my_robot.py' --imagine --confirm
 
 Each step's outcome is compared with what was expected. After a failure it excludes,
-imagines, plans again and remembers, also for the tasks after it.
+imagines, plans again and remembers, also for the tasks after it. One search expands at
+most 200,000 nodes unless --max-expansions says otherwise.
 
 Exit codes: 0 every goal was seen to hold, 12 not every one, 31 bad input,
 35 the environment failed, 36 wrong usage.")]
@@ -155,7 +159,7 @@ impl Run {
                 anstream::eprintln!("{HEAD}{name}{HEAD:#}");
             }
             narrator.planning = std::time::Duration::ZERO;
-            let budget = self.limits.budget(clock, &interrupt);
+            let budget = self.limits.with_default_expansions(EXPANSIONS).budget(clock, &interrupt);
             let mut episode =
                 Episode::new(Arc::clone(&model), task.goal.clone(), self.options(), experience.clone(), budget);
             let mut parser = Parser::new(model.hierarchy.clone(), model.parse.clone());
@@ -192,8 +196,7 @@ impl Run {
 
     fn open(&self, interrupt: &Interrupt) -> Result<Box<dyn World>, Failure> {
         let Some(command) = &self.env else { return Ok(Box::new(Kitchen::new())) };
-        let bridge =
-            Bridge::spawn(command, typelift::bridge::Options::default(), |line| anstream::eprintln!("{line}"));
+        let bridge = Bridge::spawn(command, typelift::bridge::Options::default(), |line| anstream::eprintln!("{line}"));
         let bridge = bridge.map_err(WorldError::from)?;
         let stopper = bridge.stopper();
         interrupt.on_raised(move || stopper.stop());

@@ -59,7 +59,7 @@ pub fn read_types(path: &Path) -> Result<TypesFile, FileError> {
     Ok(TypesFile { path: path.to_owned(), text, edges })
 }
 
-const EXAMPLE: &str = "Write `(:types apple leek - food)` or `{\"apple\": \"food\", \"leek\": \"food\"}`.";
+const EXAMPLE: &str = "Write `(:types rod leek - piece)` or `{\"rod\": \"piece\", \"leek\": \"piece\"}`.";
 
 fn json_types(path: &Path, text: &str) -> Result<Vec<TypeEdge>, FileError> {
     // The reader of JSON keeps no places and the last of two equal keys; so it only checks the form. In an object
@@ -111,10 +111,10 @@ mod tests {
 
     #[test]
     fn the_kind_is_told_from_the_content() {
-        let expected = ["food<object", "apple<food"];
-        assert_eq!(edges("(:types apple - food)"), expected);
-        assert_eq!(edges("; types\n(define (domain d) (:types apple - food))"), expected);
-        assert_eq!(edges("\n {\"apple\": \"food\"}"), expected);
+        let expected = ["piece<object", "rod<piece"];
+        assert_eq!(edges("(:types rod - piece)"), expected);
+        assert_eq!(edges("; types\n(define (domain d) (:types rod - piece))"), expected);
+        assert_eq!(edges("\n {\"rod\": \"piece\"}"), expected);
         assert_eq!(edges(r#"{"a\"\\": "b", "c": "a\"\\"}"#), ["b<object", "a\"\\<b", "c<a\"\\"]);
     }
 
@@ -133,7 +133,7 @@ mod tests {
     fn what_is_refused() {
         for (text, message) in [
             ("", "types: the file is empty"),
-            ("apple - food", "types: this is neither PDDL types nor a JSON object of types"),
+            ("rod - piece", "types: this is neither PDDL types nor a JSON object of types"),
             ("{\"a\": \"b\",\n\"b\": \"a\"}", "types:2:2: the type hierarchy has a cycle: a - b - a"),
             ("{\"a\": 1}", "types:1:7: invalid type: integer `1`, expected a string"),
             ("{\"a\": \"b\"", "types:1:9: the JSON text ends too early"),

@@ -1,22 +1,11 @@
 (:types
   entity - object
-  equipment - entity
-  piece - entity
-  switch - equipment
-  machine - equipment
-  cutting_machine - machine
-  painting_machine - machine
-  drying_machine - machine
-  saw - cutting_machine
-  laser - cutting_machine
-  sprayer - painting_machine
-  dip_tank - painting_machine
-  oven - drying_machine
-  fan - drying_machine
-  wooden - piece
-  metal - piece
-  plank - wooden
-  beam - wooden
-  dowel - wooden
-  rod - metal
-  sheet - metal)
+  equipment piece - entity
+  switch machine - equipment
+  cutting_machine painting_machine drying_machine - machine
+  saw laser - cutting_machine
+  sprayer dip_tank - painting_machine
+  oven fan - drying_machine
+  wooden metal - piece
+  plank beam dowel - wooden
+  rod sheet - metal)
