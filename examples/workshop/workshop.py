@@ -34,8 +34,7 @@ WORK = {
     "drying_machine": ("paint", "Wet", "Dry"),
 }
 UNSUITABLE = {("saw", "sheet")}  # a saw does not cut thin metal
-
-ACTIONS = {"pick": 1, "put": 1, "load": 2, "unload": 2, "press": 1}  # and how many things each is done to
+ACTIONS = {"pick": 1, "put": 1, "load": 2, "unload": 2, "press": 1}  # each with the number of things it is done to
 
 DEFAULT = {
     "machines": ["saw", "laser", "sprayer", "dip_tank", "oven", "fan"],
@@ -68,12 +67,11 @@ class Workshop:
                 if name not in known.get(field, ()):
                     raise ValueError(f"the scenario's {field}: there is no `{name}`")
         chance = random.Random(seed)
-        wired = chance.sample(list(machines), len(machines))
-        slots = chance.sample(range(len(pieces)), len(pieces))
         self.types = {**machines, **pieces}
         self.broken = set(scenario["broken"])
-        self.wired = {f"switch_{i + 1}": machine for i, machine in enumerate(wired)}
-        self.slot = dict(zip(pieces, slots))
+        wired = enumerate(chance.sample(list(machines), len(machines)), start=1)
+        self.wired = {f"switch_{number}": machine for number, machine in wired}
+        self.slot = dict(zip(pieces, chance.sample(range(len(pieces)), len(pieces))))
         self.inside = dict.fromkeys(machines)  # the piece in each machine, or None
         self.done = dict.fromkeys(machines, False)  # whether the machine has worked on it
         self.piece = {piece: {"shape": "Whole", "paint": "Bare"} for piece in pieces}
@@ -84,22 +82,15 @@ class Workshop:
 
     def snapshot(self):
         """Everything that can be seen. That a machine is broken cannot."""
-        entities = []
-
-        def entity(name, kind, attributes, relations):
-            entities.append({"id": name, "type": kind, "attributes": attributes, "relations": relations})
-
-        if self.with_robot:
-            entity("robot_1", "robot", {}, {"holding": self.held})
-        for switch, machine in self.wired.items():
-            entity(switch, "switch", {}, {"wired_to": [machine]})
+        seen = [("robot_1", "robot", {}, {"holding": self.held})] if self.with_robot else []
+        seen += [(switch, "switch", {}, {"wired_to": [machine]}) for switch, machine in self.wired.items()]
         for machine, piece in self.inside.items():
-            entity(machine, self.types[machine], {"status": "Done" if self.done[machine] else "Ready"}, {"load": piece})
+            status = "Done" if self.done[machine] else "Ready"
+            seen.append((machine, self.types[machine], {"status": status}, {"load": piece}))
         for piece, look in self.piece.items():
-            on_rack = self.on_rack(piece)
-            attributes = {**look, "on_rack": on_rack, **({"slot": self.slot[piece]} if on_rack else {})}
-            entity(piece, self.types[piece], attributes, {})
-        return {"entities": entities}
+            place = {"on_rack": True, "slot": self.slot[piece]} if self.on_rack(piece) else {"on_rack": False}
+            seen.append((piece, self.types[piece], {**look, **place}, {}))
+        return {"entities": [dict(zip(("id", "type", "attributes", "relations"), entity)) for entity in seen]}
 
     # The actions. Each either happens or raises Refused before anything has changed.
 
@@ -107,14 +98,13 @@ class Workshop:
         if self.with_robot:
             need(args[:1] == ["robot_1"], "the first argument is who acts: robot_1")
             args = args[1:]
-        need(name in ACTIONS and (self.with_robot or name not in ("pick", "put")), f"there is no action {name}")
-        need(len(args) == ACTIONS[name], f"{name} is done to {ACTIONS[name]} things, not {len(args)}")
+        known = name in ACTIONS and (self.with_robot or name not in ("pick", "put"))
+        need(known and len(args) == ACTIONS[name], f"there is no action {name} of {len(args)} things")
         getattr(self, name)(*args)
 
     def pick(self, piece):
-        need(piece in self.piece, f"{piece} is no piece")
         need(self.held is None, f"robot_1 already holds {self.held}")
-        need(self.on_rack(piece), f"{piece} is not on the rack")
+        need(piece in self.piece and self.on_rack(piece), f"{piece} is not on the rack")
         self.held = piece
 
     def put(self, piece):
@@ -122,10 +112,9 @@ class Workshop:
         self.held = None
 
     def load(self, machine, piece):
-        need(machine in self.inside, f"{machine} is no machine")
-        need(piece in self.piece, f"{piece} is no piece")
+        need(machine in self.inside and piece in self.piece, f"{piece} cannot be loaded into {machine}")
         at_hand = self.held == piece if self.with_robot else self.on_rack(piece)
-        need(at_hand, f"{piece} is not {'held by robot_1' if self.with_robot else 'on the rack'}")
+        need(at_hand, f"{piece} is not at hand")
         need(self.inside[machine] is None, f"{self.inside[machine]} is in {machine}")
         self.inside[machine], self.held = piece, None
 
@@ -138,8 +127,7 @@ class Workshop:
     def press(self, switch):
         """Starts the machine wired to the switch. Neither it nor the piece in it is named."""
         need(switch in self.wired, f"{switch} is no switch")
-        machine = self.wired[switch]
-        piece = self.inside[machine]
+        machine, piece = self.wired[switch], self.inside[self.wired[switch]]
         need(piece is not None, f"{machine} is empty")
         need(not self.done[machine], f"{machine} is done with {piece}")
         if machine in self.broken:
@@ -164,9 +152,7 @@ def answer(workshop, request):
     """The answer to one env/1 request, without its id."""
     op = request["op"]
     if op == "hello":
-        if request["protocol"] != "env/1":
-            raise ValueError("this environment speaks env/1")
-        return {"name": "workshop", "reset": True}
+        return {"name": "workshop", "reset": True, "protocol": "env/1"}
     if op == "close":
         return {}
     outcome = {}
@@ -204,9 +190,10 @@ DEMONSTRATIONS = {
     "paint-and-dry-a-rod": ("rod", ["sprayer", "(saw)", "oven", "rack"]),
 }
 
-# Tasks: the scenario and the goal.
+# The scenario and the goal of each task.
 TASKS = {
-    "finish-a-dowel": ({"machines": ["saw", "sprayer", "oven"]}, ["shape_Cut(dowel_1)", "paint_Dry(dowel_1)"]),
+    "cut-a-dowel": ({}, ["shape_Cut(dowel_1)"]),
+    "finish-a-dowel": ({}, ["shape_Cut(dowel_1)", "paint_Dry(dowel_1)"]),
     "cut-a-rod": ({}, ["shape_Cut(rod_1)"]),
     "cut-a-sheet": ({}, ["shape_Cut(sheet_1)"]),
     "broken-saw": ({"broken": ["saw_1"]}, ["shape_Cut(plank_1)"]),
@@ -216,14 +203,13 @@ TASKS = {
 def demonstrate(workshop, folder):
     """Writes the types, a trace/1 file for each demonstration and a task/1 file for each task."""
     folder.mkdir(parents=True, exist_ok=True)
-    types = "\n".join(f"  {' '.join(children)} - {parent}" for parent, children in TYPES.items())
+    types = "".join(f"\n  {' '.join(children)} - {parent}" for parent, children in TYPES.items())
     types = types if workshop.with_robot else types.replace("robot ", "")
-    (folder / "types.pddl").write_text(f"(:types\n{types})\n")
+    (folder / "types.pddl").write_text(f"(:types{types})\n")
     for seed, (name, (kind, way)) in enumerate(DEMONSTRATIONS.items()):
         machines = [stop.strip("()") for stop in way if stop != "rack"]
         workshop.reset({"pieces": [kind], "machines": machines}, seed)
-        piece = f"{kind}_1"
-        records = [{"state": workshop.snapshot()}]
+        piece, records = f"{kind}_1", [{"state": workshop.snapshot()}]
         for action, args in steps(workshop, piece, way):
             args = ["robot_1", *args] if workshop.with_robot else args
             workshop.act(action, args)
@@ -257,7 +243,7 @@ if __name__ == "__main__":
     the_workshop = Workshop(with_robot="--no-robot" not in sys.argv)
     if not arguments:
         serve(the_workshop)
-    elif len(arguments) == 2 and arguments[0] == "demonstrate":
+    elif arguments[0] == "demonstrate" and len(arguments) == 2:
         demonstrate(the_workshop, pathlib.Path(arguments[1]))
     else:
         sys.exit(__doc__)

@@ -383,10 +383,9 @@ impl Episode {
         observer: &mut dyn Observer,
     ) -> Result<Command, ProposeError> {
         let expected = self.expected();
-        let before = self.state.clone();
-        if let Some(after) = &after {
-            self.report_step(result, reason.clone(), after, observer);
-            self.state = after.clone();
+        if let Some(after) = after {
+            self.report_step(result, reason.clone(), &after, observer);
+            self.state = after;
             if self.attempts < self.options.retries() && self.missing_precondition().is_none() {
                 self.attempts += 1;
                 let call = self.plan.steps[self.next_step].call.clone();
@@ -395,7 +394,7 @@ impl Episode {
                 return Ok(Command::Act(call));
             }
         } else {
-            self.report_step(result, reason.clone(), &before, observer);
+            self.report_step(result, reason.clone(), &self.state, observer);
         }
         let step = self.plan.steps[self.next_step].clone();
         let why = format!("{} {}", step.call, reason.as_deref().unwrap_or(result.phrase()));
@@ -405,8 +404,6 @@ impl Episode {
             self.experience.exclude(exclusion.clone(), &why);
             observer.event(&Event::Excluded { object, call, reason: why.clone() });
         }
-        // A step that was rejected may lie ahead, where its effect cannot be computed from the present state:
-        // instantiation needs only the objects.
         if let Some(action) = expected {
             self.experience.ban(Ban { call: action.call, adds: action.adds, deletes: action.deletes }, &why);
         }

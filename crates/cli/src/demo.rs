@@ -79,7 +79,7 @@ impl Demo {
         novelty: &str,
     ) -> Result<bool, Failure> {
         let started = Instant::now();
-        let (account, kitchen) = self.act(model, task, &mut ())?;
+        let (account, _) = self.act(model, task, &mut ())?;
         let took = started.elapsed().as_secs_f64() * 1e3;
         let plan = account.plan.clone().unwrap_or_default();
         let verdict = if account.solved() { format!("{GOOD}solved{GOOD:#}") } else { "not solved".to_owned() };
@@ -94,7 +94,6 @@ impl Demo {
         for note in imagined_notes(&plan, model) {
             writeln!(out, "       {IMAGINED}{}{IMAGINED:#}", wrapped(note.split(' '), 9, 78))?;
         }
-        drop(kitchen);
         Ok(account.solved())
     }
 
@@ -198,18 +197,18 @@ fn print_learned(out: &mut impl Write, learned: &Learned, took: u128) -> Result<
         count(report.generalized as u64, "generalized action"),
     )?;
     for action in &model.actions {
+        let name = format!("{:<25}", action.name);
+        let observations = count(model.observations(action), "observation");
         let sources = action.provenance.sources();
-        let name = format!("{:<24}", action.name);
-        if let [only] = sources {
-            let _ = only;
-            writeln!(out, "  {name}{DIM}as shown{DIM:#}")?;
+        if sources.len() < 2 {
+            writeln!(out, "  {name} {DIM}as shown, {observations}{DIM:#}")?;
             continue;
         }
         let prefix = format!("{}-", action.call.name);
         let from = sources.iter().map(|source| source_name(source, model));
         let from: Vec<String> = from.map(|name| name.strip_prefix(&prefix).unwrap_or(&name).to_owned()).collect();
-        let words: Vec<&str> = from.iter().map(String::as_str).collect();
-        writeln!(out, "  {name}{DIM}{}{DIM:#}", wrapped(words, 26, 78))?;
+        let words = from.iter().map(String::as_str);
+        writeln!(out, "  {name} {DIM}{}{DIM:#}", wrapped(words, 28, 78))?;
     }
     if let Some(action) = model.action("USE-cutboard-food") {
         writeln!(out, "\n{HEAD}One of them{HEAD:#}, in full:")?;

@@ -86,7 +86,7 @@ pub(crate) fn describe(action: &ActionSchema, model: &ActionModel, in_full: bool
         Term::Const(name) => name.to_string(),
     };
     let args: Vec<String> = action.call.args.iter().map(term).collect();
-    row(&mut text, "told", &[format!("{}({})", action.call.name, args.join(", "))]);
+    row(&mut text, "call", &[format!("{}({})", action.call.name, args.join(", "))]);
     let literal = |l: &Literal| {
         let args: Vec<String> = l.atom.args.iter().map(term).collect();
         format!("{}{}({})", if l.positive { "" } else { "not " }, l.atom.predicate, args.join(","))

@@ -64,7 +64,7 @@ pub fn observe(evidence: &mut Evidence, transition: &Transition<'_>, hierarchy: 
         .iter()
         .enumerate()
         .map(|(i, _)| if i < named { format!("{i:08}") } else { format!("~{}", hierarchy.name(types[i])) });
-    let Some((order, lifted)) = canonical_form(&effect, initial.collect(), named) else {
+    let Some((order, lifted)) = canonical_form(&effect, &initial.collect::<Vec<_>>(), named) else {
         evidence.add_unexplained(Unexplained::TooSymmetric, witness);
         return;
     };
@@ -100,7 +100,7 @@ impl Effect {
 
 /// The order of objects (those named by the call first, as they are) that makes the relabelled effect smallest,
 /// with that effect; `None` beyond [`LEAF_BOUND`].
-fn canonical_form(effect: &Effect, initial: Vec<String>, named: usize) -> Option<(Vec<usize>, Effect)> {
+fn canonical_form(effect: &Effect, initial: &[String], named: usize) -> Option<(Vec<usize>, Effect)> {
     let classes = refine(effect, initial);
     let n = classes.len();
     let mut sorted: Vec<usize> = (0..n).collect();
@@ -163,8 +163,8 @@ impl Labelling<'_> {
 
 /// Colour refinement: the class of each object, numbered in an order that depends on structure alone. Starts from
 /// the given colours and tells objects apart by the signed effect atoms they occur in, until nothing changes.
-fn refine(effect: &Effect, initial: Vec<String>) -> Vec<usize> {
-    let mut classes = ranked(&initial);
+fn refine(effect: &Effect, initial: &[String]) -> Vec<usize> {
+    let mut classes = ranked(initial);
     loop {
         let colours: Vec<_> = (0..classes.len())
             .map(|object| {

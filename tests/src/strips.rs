@@ -1,0 +1,278 @@
+//! Tiny random planning problems, and the plainest answers to them: everything is enumerated, nothing is clever, and
+//! no code is shared with what is tested.
+
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+
+use proptest::prelude::*;
+use typelift::model::{
+    ActionModel, ActionSchema, Effect, GroundAction, GroundAtom, Hierarchy, LiftedAtom, LiftedCall, Literal, Parameter,
+    Provenance, State, Symbol, Task, Term, TypeId,
+};
+
+/// Predicates with their numbers of arguments.
+const PREDICATES: [(&str, usize); 4] = [("lit", 0), ("wet", 1), ("hot", 1), ("on", 2)];
+const TYPES: [&str; 4] = ["object", "block", "cube", "table"];
+const OBJECTS: [&str; 4] = ["ada", "bob", "cyd", "dan"];
+
+/// A model and a task over it.
+#[derive(Debug, Clone)]
+pub struct Tiny {
+    /// The actions.
+    pub model: ActionModel,
+    /// What is asked.
+    pub task: Task,
+}
+
+/// `cube` below `block`, `table` beside it.
+fn types() -> Hierarchy {
+    Hierarchy::from_edges([("block", "object"), ("cube", "block"), ("table", "object")]).expect("a tree")
+}
+
+/// An atom, its arguments drawn from `0..limit`.
+fn pattern(limit: usize) -> impl Strategy<Value = (usize, [usize; 2])> {
+    (0..PREDICATES.len(), [0..limit, 0..limit])
+}
+
+fn atom<T>((predicate, args): (usize, [usize; 2]), term: impl Fn(usize) -> T) -> typelift::model::Atom<T> {
+    let (name, arity) = PREDICATES[predicate];
+    typelift::model::Atom::new(name, args[..arity].iter().map(|&i| term(i)).collect())
+}
+
+fn ground((objects, drawn): (usize, (usize, [usize; 2]))) -> GroundAtom {
+    atom(drawn, |i| Symbol::new(OBJECTS[i % objects]))
+}
+
+/// A signed atom over parameters, and now and then a constant.
+fn literal(parameters: usize, objects: usize) -> impl Strategy<Value = Literal> {
+    let term = move |i: usize| match i {
+        i if i < 6 && parameters > 0 => Term::Param((i % parameters) as u32),
+        i => Term::Const(Symbol::new(OBJECTS[i % objects])),
+    };
+    (pattern(8), prop::bool::weighted(0.75))
+        .prop_map(move |(drawn, positive)| Literal { atom: atom(drawn, term), positive })
+}
+
+fn action(number: usize, objects: usize) -> impl Strategy<Value = ActionSchema> {
+    (0..=3_usize).prop_flat_map(move |n| {
+        let literals = |range| prop::collection::vec(literal(n, objects), range);
+        let effect = (prop_oneof![3 => literals(0..1), 1 => literals(1..3)], literal(n, objects))
+            .prop_map(|(condition, literal)| Effect { condition, literal });
+        let pairs = prop::collection::vec(any::<bool>(), 3);
+        (prop::collection::vec(0..TYPES.len(), n), literals(0..3), prop::collection::vec(effect, 2..5), pairs, 1..3_u32)
+            .prop_map(move |(types_drawn, mut preconditions, mut effects, pairs, cost)| {
+                let hierarchy = types();
+                let ty = |i: usize| hierarchy.id(TYPES[i]).expect("a type");
+                preconditions.sort_unstable();
+                preconditions.dedup();
+                effects.sort_unstable();
+                effects.dedup();
+                let mut distinct = ActionSchema::all_distinct(n);
+                let mut keep = pairs.into_iter();
+                distinct.retain(|_| keep.next().unwrap_or(false));
+                let name = Symbol::from(format!("act-{number}"));
+                ActionSchema {
+                    call: LiftedCall { name: name.clone(), args: (0..n as u32).map(Term::Param).collect() },
+                    name,
+                    parameters: types_drawn
+                        .iter()
+                        .enumerate()
+                        .map(|(i, &t)| Parameter { name: Symbol::from(format!("x{i}")), ty: ty(t) })
+                        .collect(),
+                    preconditions,
+                    distinct,
+                    effects,
+                    cost,
+                    provenance: Provenance::Given,
+                }
+            })
+    })
+}
+
+/// Random problems of at most `most` objects.
+pub fn tiny(most: usize) -> impl Strategy<Value = Tiny> {
+    (1..=most).prop_flat_map(|n| {
+        let actions = (2..=3_usize).prop_flat_map(move |count| (0..count).map(|i| action(i, n)).collect::<Vec<_>>());
+        let init = prop::collection::vec(pattern(8), 1..6);
+        let goal = prop::collection::vec((pattern(8), prop::bool::weighted(0.9), any::<prop::sample::Index>()), 1..3);
+        (actions, prop::collection::vec(1..TYPES.len(), n), init, goal).prop_map(
+            move |(actions, kinds, init, goal)| {
+                let hierarchy = types();
+                let ty = |i: usize| hierarchy.id(TYPES[i]).expect("a type");
+                let objects = kinds.iter().enumerate().map(|(i, &t)| (Symbol::new(OBJECTS[i]), ty(t))).collect();
+                let atoms = init.into_iter().map(|drawn| ground((n, drawn))).collect();
+                let init = State { objects, atoms, unknown: BTreeSet::new() };
+                let predicates = PREDICATES.iter().map(|(name, n)| (Symbol::new(name), *n)).collect();
+                let model = ActionModel { hierarchy: hierarchy.clone(), predicates, actions, ..ActionModel::default() };
+                let mut task = Task { init, goal: Vec::new() };
+                // Mostly what is reachable, and the hardest of that: anything else is unsolvable, or solved in a step.
+                let reachable = reachable_in_order(&all_instances(&model, &task), &task);
+                let hard = &reachable[reachable.len() * 3 / 4..];
+                for (drawn, reach, index) in goal {
+                    let atom = if reach && !hard.is_empty() { index.get(hard).clone() } else { ground((n, drawn)) };
+                    if !task.goal.contains(&atom) {
+                        task.goal.push(atom);
+                    }
+                }
+                Tiny { model, task }
+            },
+        )
+    })
+}
+
+/// An action with objects in place of its parameters, conditions and all.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Instance {
+    /// The schema's name.
+    pub action: Symbol,
+    /// The objects.
+    pub objects: Vec<Symbol>,
+    /// Signed preconditions.
+    pub preconditions: BTreeSet<(bool, GroundAtom)>,
+    /// Signed effects with their signed conditions.
+    pub effects: BTreeSet<(BTreeSet<(bool, GroundAtom)>, bool, GroundAtom)>,
+    /// The cost.
+    pub cost: u32,
+}
+
+/// Every list of so many objects.
+fn product(objects: &BTreeMap<Symbol, TypeId>, n: usize) -> Vec<Vec<Symbol>> {
+    (0..n).fold(vec![Vec::new()], |lists, _| {
+        lists
+            .iter()
+            .flat_map(|list| objects.keys().map(|o| list.iter().cloned().chain([o.clone()]).collect()))
+            .collect()
+    })
+}
+
+/// Every instance that types and distinctness allow, reachable or not.
+pub fn all_instances(model: &ActionModel, task: &Task) -> Vec<Instance> {
+    let mut instances = Vec::new();
+    for schema in &model.actions {
+        for objects in product(&task.init.objects, schema.parameters.len()) {
+            let typed = objects
+                .iter()
+                .zip(&schema.parameters)
+                .all(|(object, parameter)| model.hierarchy.is_a(task.init.objects[object], parameter.ty));
+            let distinct = schema.distinct.iter().all(|&(i, j)| objects[i as usize] != objects[j as usize]);
+            if !typed || !distinct {
+                continue;
+            }
+            let atom = |atom: &LiftedAtom| {
+                atom.map(|term| match term {
+                    Term::Param(i) => objects[*i as usize].clone(),
+                    Term::Const(name) => name.clone(),
+                })
+            };
+            let signed = |l: &Literal| (l.positive, atom(&l.atom));
+            instances.push(Instance {
+                action: schema.name.clone(),
+                preconditions: schema.preconditions.iter().map(signed).collect(),
+                effects: schema
+                    .effects
+                    .iter()
+                    .map(|e| (e.condition.iter().map(signed).collect(), e.literal.positive, atom(&e.literal.atom)))
+                    .collect(),
+                cost: schema.cost,
+                objects,
+            });
+        }
+    }
+    instances
+}
+
+fn positive_in(literals: &BTreeSet<(bool, GroundAtom)>, atoms: &BTreeSet<GroundAtom>) -> bool {
+    literals.iter().all(|(positive, atom)| !positive || atoms.contains(atom))
+}
+
+/// The atoms that can become true if nothing is ever deleted and negations always hold: applied again and again until
+/// nothing is new.
+pub fn reachable_atoms(instances: &[Instance], task: &Task) -> BTreeSet<GroundAtom> {
+    let mut atoms: BTreeSet<GroundAtom> = reachable_in_order(instances, task).into_iter().collect();
+    atoms.extend(task.init.atoms.iter().cloned());
+    atoms
+}
+
+/// Those of them that do not hold at first, in layers: what takes more steps comes later.
+fn reachable_in_order(instances: &[Instance], task: &Task) -> Vec<GroundAtom> {
+    let (mut atoms, mut order) = (task.init.atoms.clone(), Vec::new());
+    loop {
+        let mut layer = BTreeSet::new();
+        for instance in instances.iter().filter(|instance| positive_in(&instance.preconditions, &atoms)) {
+            let adds = instance.effects.iter().filter(|(condition, adds, _)| *adds && positive_in(condition, &atoms));
+            layer.extend(adds.map(|(_, _, atom)| atom.clone()).filter(|atom| !atoms.contains(atom)));
+        }
+        if layer.is_empty() {
+            return order;
+        }
+        order.extend(layer.iter().cloned());
+        atoms.extend(layer);
+    }
+}
+
+/// The instances that are applicable if nothing is ever deleted, without what can never matter there: negations of
+/// unreachable atoms, effects with unreachable conditions, deletes of unreachable or added atoms.
+pub fn reachable_instances(instances: &[Instance], reachable: &BTreeSet<GroundAtom>) -> Vec<Instance> {
+    let known = |literals: &BTreeSet<(bool, GroundAtom)>| -> BTreeSet<(bool, GroundAtom)> {
+        literals.iter().filter(|(_, atom)| reachable.contains(atom)).cloned().collect()
+    };
+    let simplified = |instance: &Instance| {
+        let possible = instance.effects.iter().filter(|(c, _, atom)| positive_in(c, reachable) && reachable.contains(atom));
+        let mut effects: BTreeSet<_> =
+            possible.map(|(condition, positive, atom)| (known(condition), *positive, atom.clone())).collect();
+        let always: BTreeSet<GroundAtom> =
+            effects.iter().filter(|(c, positive, _)| *positive && c.is_empty()).map(|e| e.2.clone()).collect();
+        effects.retain(|(condition, positive, atom)| *positive || !condition.is_empty() || !always.contains(atom));
+        Instance { preconditions: known(&instance.preconditions), effects, ..instance.clone() }
+    };
+    instances.iter().filter(|instance| positive_in(&instance.preconditions, reachable)).map(simplified).collect()
+}
+
+fn holds(literals: &BTreeSet<(bool, GroundAtom)>, atoms: &BTreeSet<GroundAtom>) -> bool {
+    literals.iter().all(|(positive, atom)| atoms.contains(atom) == *positive)
+}
+
+/// The atoms after an instance, conditions being looked at before; adding wins over deleting. `None` where it is not
+/// applicable.
+pub fn apply(instance: &Instance, atoms: &BTreeSet<GroundAtom>) -> Option<BTreeSet<GroundAtom>> {
+    if !holds(&instance.preconditions, atoms) {
+        return None;
+    }
+    let mut after = atoms.clone();
+    for adds in [false, true] {
+        for (condition, positive, atom) in &instance.effects {
+            if *positive == adds && holds(condition, atoms) {
+                if adds {
+                    after.insert(atom.clone());
+                } else {
+                    after.remove(atom);
+                }
+            }
+        }
+    }
+    Some(after)
+}
+
+/// Whether the goal can be reached, by breadth-first search over states; `None` beyond so many states.
+pub fn is_solvable(instances: &[Instance], task: &Task, most: usize) -> Option<bool> {
+    let mut seen = BTreeSet::from([task.init.atoms.clone()]);
+    let mut queue = VecDeque::from([task.init.atoms.clone()]);
+    while let Some(atoms) = queue.pop_front() {
+        if task.goal.iter().all(|goal| atoms.contains(goal)) {
+            return Some(true);
+        }
+        for after in instances.iter().filter_map(|instance| apply(instance, &atoms)) {
+            if seen.insert(after.clone()) {
+                queue.push_back(after);
+            }
+        }
+        if seen.len() > most {
+            return None;
+        }
+    }
+    Some(false)
+}
+
+/// The signed preconditions of a ground action, for comparison.
+pub fn signed_preconditions(action: &GroundAction) -> BTreeSet<(bool, GroundAtom)> {
+    action.preconditions.iter().map(|(atom, positive)| (*positive, atom.clone())).collect()
+}
