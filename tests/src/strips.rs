@@ -1,11 +1,11 @@
 //! Tiny random planning problems, and the plainest answers to them: everything is enumerated, nothing is clever, and
 //! no code is shared with what is tested.
 
-use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::collections::{BTreeMap, BTreeSet};
 
 use proptest::prelude::*;
 use typelift::model::{
-    ActionModel, ActionSchema, Effect, GroundAction, GroundAtom, Hierarchy, LiftedAtom, LiftedCall, Literal, Parameter,
+    ActionModel, ActionSchema, Effect, GroundAtom, Hierarchy, LiftedAtom, LiftedCall, Literal, Parameter,
     Provenance, State, Symbol, Task, Term, TypeId,
 };
 
@@ -252,27 +252,36 @@ pub fn apply(instance: &Instance, atoms: &BTreeSet<GroundAtom>) -> Option<BTreeS
     Some(after)
 }
 
-/// Whether the goal can be reached, by breadth-first search over states; `None` beyond so many states.
-pub fn is_solvable(instances: &[Instance], task: &Task, most: usize) -> Option<bool> {
-    let mut seen = BTreeSet::from([task.init.atoms.clone()]);
-    let mut queue = VecDeque::from([task.init.atoms.clone()]);
-    while let Some(atoms) = queue.pop_front() {
-        if task.goal.iter().all(|goal| atoms.contains(goal)) {
-            return Some(true);
-        }
-        for after in instances.iter().filter_map(|instance| apply(instance, &atoms)) {
-            if seen.insert(after.clone()) {
-                queue.push_back(after);
-            }
-        }
-        if seen.len() > most {
-            return None;
-        }
-    }
-    Some(false)
+/// What a search over all states, cheapest first, finds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Cheapest {
+    /// A plan of this cost, and none cheaper.
+    Cost(u64),
+    /// No plan.
+    None,
+    /// Too many states to tell.
+    TooMany,
 }
 
-/// The signed preconditions of a ground action, for comparison.
-pub fn signed_preconditions(action: &GroundAction) -> BTreeSet<(bool, GroundAtom)> {
-    action.preconditions.iter().map(|(atom, positive)| (*positive, atom.clone())).collect()
+/// The cost of the cheapest plan, by visiting states in the order of their cost, at most so many.
+pub fn cheapest(instances: &[Instance], task: &Task, most: usize) -> Cheapest {
+    let mut best = BTreeMap::from([(task.init.atoms.clone(), 0)]);
+    let mut queue = BTreeSet::from([(0, task.init.atoms.clone())]);
+    while let Some((cost, atoms)) = queue.pop_first() {
+        if task.goal.iter().all(|goal| atoms.contains(goal)) {
+            return Cheapest::Cost(cost);
+        }
+        for instance in instances {
+            let Some(after) = apply(instance, &atoms) else { continue };
+            let cost = cost + u64::from(instance.cost);
+            if best.get(&after).is_none_or(|&known| cost < known) {
+                best.insert(after.clone(), cost);
+                queue.insert((cost, after));
+            }
+        }
+        if best.len() > most {
+            return Cheapest::TooMany;
+        }
+    }
+    Cheapest::None
 }

@@ -47,11 +47,10 @@ fn programs_that_cannot_be_started() {
 
 #[test]
 fn no_hello() {
-    let failure = |script: &str| {
-        let patient = Options { hello: Duration::from_millis(300), ..Options::default() };
-        *start(&sh(script), patient).expect_err("an error").failure
-    };
-    assert!(matches!(failure("ask; sleep 100"), Failure::TimedOut { op: "hello", .. }));
+    let short = Options { hello: Duration::from_millis(300), ..Options::default() };
+    let silent = start(&sh("ask; sleep 100"), short).expect_err("an error");
+    assert!(matches!(*silent.failure, Failure::TimedOut { op: "hello", .. }));
+    let failure = |script: &str| *start(&sh(script), Options::default()).expect_err("an error").failure;
     assert!(matches!(failure("echo Hello; ask"), Failure::NotJson { op: "hello", .. }));
     let answer = |fields: &str| failure(&format!("ask; echo \"{{\\\"id\\\":$id,\\\"ok\\\":true{fields}}}\"; sleep 1"));
     assert_eq!(answer(""), Failure::Missing { op: "hello", field: "name" });

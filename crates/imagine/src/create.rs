@@ -35,7 +35,7 @@ pub(crate) fn create_imagined_action<'a>(context: &Context<'_>, potential: &Pote
                 hierarchy.lca(parameter.ty, ty)
             }
             None => context
-                .available(&schema.call.name, &bound)
+                .available(&bound)
                 .map(|(_, ty)| hierarchy.lca(parameter.ty, ty))
                 .max_by_key(|&ancestor| hierarchy.depth(ancestor))
                 .unwrap_or(parameter.ty),

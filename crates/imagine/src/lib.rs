@@ -65,14 +65,12 @@ struct Context<'a> {
 }
 
 impl Context<'_> {
-    /// The objects that may take part in actions of this call name, and are not in `bound`, with their types.
-    fn available<'b>(
-        &'b self,
-        call: &'b Symbol,
-        bound: &'b BTreeSet<&Symbol>,
-    ) -> impl Iterator<Item = (&'b Symbol, TypeId)> {
+    /// The objects that nothing speaks against, but for those in `bound`, with their types. An object excluded from
+    /// one kind of action does not count for another either: what cannot be loaded need not be started, and the
+    /// action that would start it has to be imagined for something else.
+    fn available(&self, bound: &BTreeSet<&Symbol>) -> impl Iterator<Item = (&Symbol, TypeId)> {
         let objects = self.task.init.objects.iter().map(|(name, ty)| (name, *ty));
-        objects.filter(move |(name, _)| !bound.contains(name) && self.restrictions.allows(name, call))
+        objects.filter(|(name, _)| !bound.contains(name) && !self.restrictions.distrusts(name))
     }
 }
 

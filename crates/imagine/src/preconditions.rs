@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use typelift_model::{GroundAtom, LiftedAtom, Symbol, Term};
+use typelift_model::{GroundAtom, LiftedAtom, Symbol, Term, TypeId};
 
 use crate::Context;
 use crate::create::Proposal;
@@ -22,13 +22,12 @@ pub(crate) fn get_unreachable_preconds(context: &Context<'_>, proposal: &Proposa
 }
 
 /// The objects that may take each parameter's place.
-fn choices<'a>(context: &Context<'a>, proposal: &Proposal<'a>) -> Vec<Vec<&'a Symbol>> {
-    let (hierarchy, objects) = (&context.model.hierarchy, &context.task.init.objects);
+fn choices<'a>(context: &'a Context<'_>, proposal: &'a Proposal<'a>) -> Vec<Vec<&'a Symbol>> {
+    let hierarchy = &context.model.hierarchy;
     let bound: BTreeSet<&Symbol> = proposal.binding.iter().copied().flatten().collect();
+    let available: Vec<(&Symbol, TypeId)> = context.available(&bound).collect();
     let of_type = |wanted| -> Vec<&Symbol> {
-        let usable =
-            |name: &Symbol| !bound.contains(name) && context.restrictions.allows(name, &proposal.schema.call.name);
-        objects.iter().filter(|(name, ty)| hierarchy.is_a(**ty, wanted) && usable(name)).map(|(name, _)| name).collect()
+        available.iter().filter(|(_, ty)| hierarchy.is_a(*ty, wanted)).map(|(name, _)| *name).collect()
     };
     let parameters = proposal.schema.parameters.iter().zip(&proposal.types).zip(&proposal.binding);
     parameters

@@ -40,8 +40,8 @@ impl Restrictions {
             || !self.excluded.iter().any(|e| e.object == *object && e.call.as_ref().is_none_or(|name| name == call))
     }
 
-    /// Whether the object may take part in any action at all.
-    pub fn allows_somewhere(&self, object: &Symbol) -> bool {
-        !self.excluded.contains(&Exclusion { object: object.clone(), call: None })
+    /// Whether the object is excluded from actions of some call name, or from all.
+    pub fn distrusts(&self, object: &Symbol) -> bool {
+        self.excluded.iter().any(|exclusion| exclusion.object == *object)
     }
 }

@@ -1,0 +1,9 @@
+(:types
+  entity - object
+  gripper support item - entity
+  surface container - support
+  table tray - surface
+  box - container
+  vessel block wiper - item
+  cup bottle - vessel
+  sponge cloth - wiper)
