@@ -6,10 +6,13 @@ import sys
 
 from tabletop import Tabletop
 
+SUPPORTS = {"table", "shelf", "tray", "box"}
+ITEMS = {"cup", "bottle", "block", "sponge", "cloth"}
+
 
 # [hysteresis]
 class Hysteresis:
-    """Yes once a value falls below `enter`, no once it rises above `leave`; in between the answer stays."""
+    """Yes once a value falls below `enter`, no once it rises above `leave`; in between, as before."""
 
     def __init__(self, enter, leave):
         self.enter, self.leave, self.yes = enter, leave, set()
@@ -23,50 +26,48 @@ class Hysteresis:
 
 # [adapter]
 class Robot:
-    NEAR, ON = (0.10, 0.16), (0.010, 0.020)  # enter and leave, in metres
+    ON, NEAR = (0.010, 0.020), (0.10, 0.16)  # enter and leave, in metres
 
     def __init__(self, sim):
         self.sim = sim
+        self.reset(0, {})
 
     def reset(self, seed, scenario):
         self.sim.reset(seed, **scenario)
-        self.near, self.on = Hysteresis(*self.NEAR), Hysteresis(*self.ON)
+        self.on, self.near = Hysteresis(*self.ON), Hysteresis(*self.NEAR)
 
     def snapshot(self):
-        """Poses in, entities out."""
         bodies, entities = self.sim.observe(), []
-        supports = {name: body for name, body in bodies.items() if "top" in body}
-        items = {name: body for name, body in bodies.items() if name not in supports and "holds" not in body}
+        supports = [name for name, body in bodies.items() if body["kind"] in SUPPORTS]
+        items = [name for name, body in bodies.items() if body["kind"] in ITEMS]
         for name, body in bodies.items():
-            attributes, relations = {"xyz": list(body["xyz"])}, {}
-            if "holds" in body:
-                relations["holding"] = body["holds"]  # an id or None: at most one
+            attributes, relations = {"xyz": body["xyz"]}, {}  # numbers: they give no atoms
             if "dirt" in body:
-                attributes["surface"] = "Dirty" if body["dirt"] > 0.5 else "Clean"  # one of several words
+                attributes["surface"] = "Dirty" if body["dirt"] > 0.5 else "Clean"
             if name in items:
-                on = [s for s in supports if self.on((name, s), gap(body, supports[s]))]
-                relations["on"] = on[0] if on else None
-                others = (other for other in items if other != name)
-                relations["near"] = [o for o in others if self.near(frozenset((name, o)), apart(body, items[o]))]
+                on = [s for s in supports if self.on((name, s), gap(body, bodies[s]))]
+                near = [i for i in items if i != name and self.near(frozenset((name, i)), apart(body, bodies[i]))]
+                relations = {"on": on[0] if on else None, "near": near}  # at most one; any number
+            if "holds" in body:
+                relations["holding"] = body["holds"]  # at most one
             entities.append({"id": name, "type": body["kind"], "attributes": attributes, "relations": relations})
         return {"entities": entities}
 
-    def act(self, name, args):
-        """Returns when the world has settled: None, or why it could not be done."""
-        return self.sim.act(name, args)
 
-    def answer(self, request):
-        op, outcome = request["op"], {}
-        if op == "hello":
-            return {"name": "tabletop", "reset": True}
-        if op == "close":
-            return {}
-        if op == "reset":
-            self.reset(request["seed"], request.get("scenario") or {})
-        elif op == "act":
-            refusal = self.act(request["action"]["name"], request["action"]["args"])
-            outcome = {"executed": refusal is None, "reason": refusal}
-        return {"state": self.snapshot(), **outcome}
+def serve(robot):
+    answers = os.fdopen(os.dup(1), "w")
+    os.dup2(2, 1)  # standard output is for answers: what the simulator prints goes to standard error
+    for request in map(json.loads, sys.stdin):
+        answer, refusal = {"id": request["id"], "ok": True}, None
+        if request["op"] == "hello":
+            answer.update(name="tabletop", reset=True)
+        elif request["op"] == "reset":
+            robot.reset(request["seed"], request.get("scenario") or {})
+        elif request["op"] == "act":
+            refusal = robot.sim.act(**request["action"])  # returns when the world has settled
+        answer.update(state=robot.snapshot(), executed=refusal is None, reason=refusal)
+        print(json.dumps(answer), file=answers, flush=True)
+# [/adapter]
 
 
 def apart(a, b):
@@ -74,24 +75,11 @@ def apart(a, b):
 
 
 def gap(item, support):
-    """How far the item is above what it might rest on; infinite if it is not above it at all."""
+    """How far an item's base is from the height at which things rest on a support; infinite beside the support."""
     (x, y, z), (sx, sy, sz) = item["xyz"], support["xyz"]
-    inside = max(abs(x - sx), abs(y - sy)) <= support["reach"]
-    return abs(z - sz - support["top"]) if inside else float("inf")
-
-
-def serve(robot):
-    answers = os.fdopen(os.dup(1), "w")  # standard output is for answers only:
-    os.dup2(2, 1)  # what libraries print goes to standard error
-    for line in sys.stdin:
-        request = json.loads(line)
-        try:
-            answer = {"ok": True, **robot.answer(request)}
-        except Exception as error:
-            answer = {"ok": False, "error": repr(error)}
-        print(json.dumps({"id": request["id"], **answer}), file=answers, flush=True)
+    above = max(abs(x - sx), abs(y - sy)) <= support["reach"]
+    return abs(z - sz - support["top"]) if above else float("inf")
 
 
 if __name__ == "__main__":
     serve(Robot(Tabletop()))
-# [/adapter]

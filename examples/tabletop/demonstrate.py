@@ -23,7 +23,7 @@ def record(robot, path, task, goal):
             print(json.dumps(line), file=out)
 
         def act(name, *args):
-            refusal = robot.act(name, args)
+            refusal = robot.sim.act(name, args)
             write(action={"name": name, "args": args}, executed=refusal is None, reason=refusal)
             write(state=robot.snapshot())
 
@@ -33,30 +33,35 @@ def record(robot, path, task, goal):
 # [/record]
 
 
-# [demonstrations]
-def demonstrate(robot, folder):
-    gripper, shown = "gripper_1", {"items": ["cup_1", "block_1", "sponge_1", "cloth_1"]}
+# [demonstration]
+SHOWN = {"items": ["cup_1", "cup_2", "block_1", "sponge_1", "cloth_1"]}  # no bottle
 
-    robot.reset(1, shown)
+
+def fill_the_tray(robot, folder):
+    robot.reset(21, SHOWN)
     goal = ["on_holds(cup_1,tray_1)", "on_holds(block_1,tray_1)"]
     with record(robot, folder / "fill-the-tray.jsonl", "put a cup and a block on the tray", goal) as act:
         for item in ("cup_1", "block_1"):
-            act("pick", gripper, item)
-            act("place", gripper, "tray_1", item)
+            act("pick", "gripper_1", item)
+            act("place", "gripper_1", "tray_1", item)
+# [/demonstration]
 
-    for seed, tool in ((2, "sponge_1"), (3, "cloth_1")):
-        robot.reset(seed, shown)
-        with record(robot, folder / f"wipe-with-{tool}.jsonl", "wipe the tray", ["surface_Clean(tray_1)"]) as act:
-            act("pick", gripper, tool)
-            act("wipe", gripper, tool, "tray_1")
-            act("place", gripper, "table_1", tool)
 
-    robot.reset(4, shown)
-    goal = ["near_holds(block_1,cup_1)", "near_holds(sponge_1,cloth_1)"]
-    with record(robot, folder / "pair-up.jsonl", "push the block to the cup, the sponge to the cloth", goal) as act:
-        act("push", gripper, "cup_1", "block_1")
-        act("push", gripper, "cloth_1", "sponge_1")
-# [/demonstrations]
+def wipe_the_tray(robot, folder, seed, tool):
+    robot.reset(seed, SHOWN)
+    goal = ["surface_Clean(tray_1)"]
+    with record(robot, folder / f"wipe-with-{tool}.jsonl", f"wipe the tray with {tool}", goal) as act:
+        act("pick", "gripper_1", tool)
+        act("wipe", "gripper_1", tool, "tray_1")
+        act("place", "gripper_1", "table_1", tool)
+
+
+def pair_up(robot, folder):
+    robot.reset(24, SHOWN)
+    goal = ["near_holds(block_1,cup_1)", "near_holds(cup_2,sponge_1)"]
+    with record(robot, folder / "pair-up.jsonl", "push things together", goal) as act:
+        act("push", "gripper_1", "table_1", "cup_1", "block_1")
+        act("push", "gripper_1", "table_1", "sponge_1", "cup_2")
 
 
 # What is asked afterwards: the goal, and what the simulator is to set up. No bottle was shown, and nothing in a box.
@@ -65,6 +70,7 @@ TASKS = {
     "bottle-in-box": (["on_holds(bottle_1,box_1)"], {}),
     "slippery-cup": (["on_holds(cup_1,tray_1)"], {"slippery": ["cup_1"]}),
     "glued-cloth": (["surface_Clean(tray_1)"], {"glued": ["cloth_1"]}),
+    "bottle-beside-cup": (["near_holds(bottle_1,cup_1)"], {}),
 }
 
 
@@ -84,5 +90,8 @@ if __name__ == "__main__":
     folder = pathlib.Path(arguments[0])
     folder.mkdir(parents=True, exist_ok=True)
     robot = Robot(Tabletop())
-    demonstrate(robot, folder)
+    fill_the_tray(robot, folder)
+    wipe_the_tray(robot, folder, 22, "sponge_1")
+    wipe_the_tray(robot, folder, 23, "cloth_1")
+    pair_up(robot, folder)
     write_tasks(robot, folder)

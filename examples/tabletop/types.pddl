@@ -2,7 +2,7 @@
   entity - object
   gripper support item - entity
   surface container - support
-  table tray - surface
+  table shelf tray - surface
   box - container
   vessel block wiper - item
   cup bottle - vessel

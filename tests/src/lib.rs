@@ -3,12 +3,13 @@
 pub mod strips;
 mod worlds;
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use typelift::agent::{Account, Confirmation, Episode, Experience, Observer, Options, run};
 use typelift::imagine;
 use typelift::learn::{self, learn_dataset};
-use typelift::model::{ActionModel, Budget, ParseConfig, Symbol, Task};
+use typelift::model::{ActionModel, ActionSchema, Budget, ParseConfig, Symbol, Task};
 use typelift::world::{Dataset, Parser, Reset, Trace, TraceAction, World};
 use typelift_kitchen::{Demonstration, Kitchen, KitchenTask, demonstrations, hierarchy};
 
@@ -95,4 +96,35 @@ pub fn planning_task(model: &ActionModel, task: &KitchenTask, seed: u64) -> Task
     let scene = Kitchen::new().reset(&reset).expect("the simulator works");
     let mut parser = Parser::new(model.hierarchy.clone(), model.parse.clone());
     Task { init: parser.parse(&scene).expect("a state"), goal: task.goal.clone() }
+}
+
+/// What an action is, whatever its parameters are called or numbered beyond the call's arguments: its text under every
+/// numbering.
+///
+/// # Panics
+/// If it has more than two parameters that its call does not name.
+pub fn shape(action: &ActionSchema) -> BTreeSet<String> {
+    // Every numbering of the parameters that keeps the call's, which come first.
+    let (fixed, n) = (action.call.args.len(), action.parameters.len());
+    let free: Vec<u32> = (fixed as u32..n as u32).collect();
+    let orders = match free.as_slice() {
+        [] => vec![vec![]],
+        [a] => vec![vec![*a]],
+        [a, b] => vec![vec![*a, *b], vec![*b, *a]],
+        _ => panic!("{} has many parameters beyond its call", action.name),
+    };
+    orders
+        .into_iter()
+        .map(|order| {
+            let map: Vec<u32> = (0..fixed as u32).chain(order).collect();
+            let mut types = vec![None; n];
+            for (i, parameter) in action.parameters.iter().enumerate() {
+                types[map[i] as usize] = Some(parameter.ty);
+            }
+            let preconditions: BTreeSet<_> = action.preconditions.iter().map(|l| l.atom.renamed(&map)).collect();
+            let effects: BTreeSet<_> =
+                action.effects.iter().map(|e| (e.literal.positive, e.literal.atom.renamed(&map))).collect();
+            format!("{:?} {types:?} {preconditions:?} {effects:?}", action.call.name)
+        })
+        .collect()
 }

@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use proptest::prelude::*;
 use typelift::model::{
-    ActionModel, ActionSchema, Effect, GroundAtom, Hierarchy, LiftedAtom, LiftedCall, Literal, Parameter,
-    Provenance, State, Symbol, Task, Term, TypeId,
+    ActionModel, ActionSchema, Effect, GroundAtom, Hierarchy, LiftedAtom, LiftedCall, Literal, Parameter, Provenance,
+    State, Symbol, Task, Term, TypeId,
 };
 
 /// Predicates with their numbers of arguments.
@@ -94,28 +94,26 @@ pub fn tiny(most: usize) -> impl Strategy<Value = Tiny> {
         let actions = (2..=3_usize).prop_flat_map(move |count| (0..count).map(|i| action(i, n)).collect::<Vec<_>>());
         let init = prop::collection::vec(pattern(8), 1..6);
         let goal = prop::collection::vec((pattern(8), prop::bool::weighted(0.9), any::<prop::sample::Index>()), 1..3);
-        (actions, prop::collection::vec(1..TYPES.len(), n), init, goal).prop_map(
-            move |(actions, kinds, init, goal)| {
-                let hierarchy = types();
-                let ty = |i: usize| hierarchy.id(TYPES[i]).expect("a type");
-                let objects = kinds.iter().enumerate().map(|(i, &t)| (Symbol::new(OBJECTS[i]), ty(t))).collect();
-                let atoms = init.into_iter().map(|drawn| ground((n, drawn))).collect();
-                let init = State { objects, atoms, unknown: BTreeSet::new() };
-                let predicates = PREDICATES.iter().map(|(name, n)| (Symbol::new(name), *n)).collect();
-                let model = ActionModel { hierarchy: hierarchy.clone(), predicates, actions, ..ActionModel::default() };
-                let mut task = Task { init, goal: Vec::new() };
-                // Mostly what is reachable, and the hardest of that: anything else is unsolvable, or solved in a step.
-                let reachable = reachable_in_order(&all_instances(&model, &task), &task);
-                let hard = &reachable[reachable.len() * 3 / 4..];
-                for (drawn, reach, index) in goal {
-                    let atom = if reach && !hard.is_empty() { index.get(hard).clone() } else { ground((n, drawn)) };
-                    if !task.goal.contains(&atom) {
-                        task.goal.push(atom);
-                    }
+        (actions, prop::collection::vec(1..TYPES.len(), n), init, goal).prop_map(move |(actions, kinds, init, goal)| {
+            let hierarchy = types();
+            let ty = |i: usize| hierarchy.id(TYPES[i]).expect("a type");
+            let objects = kinds.iter().enumerate().map(|(i, &t)| (Symbol::new(OBJECTS[i]), ty(t))).collect();
+            let atoms = init.into_iter().map(|drawn| ground((n, drawn))).collect();
+            let init = State { objects, atoms, unknown: BTreeSet::new() };
+            let predicates = PREDICATES.iter().map(|(name, n)| (Symbol::new(name), *n)).collect();
+            let model = ActionModel { hierarchy: hierarchy.clone(), predicates, actions, ..ActionModel::default() };
+            let mut task = Task { init, goal: Vec::new() };
+            // Mostly what is reachable, and the hardest of that: anything else is unsolvable, or solved in a step.
+            let reachable = reachable_in_order(&all_instances(&model, &task), &task);
+            let hard = &reachable[reachable.len() * 3 / 4..];
+            for (drawn, reach, index) in goal {
+                let atom = if reach && !hard.is_empty() { index.get(hard).clone() } else { ground((n, drawn)) };
+                if !task.goal.contains(&atom) {
+                    task.goal.push(atom);
                 }
-                Tiny { model, task }
-            },
-        )
+            }
+            Tiny { model, task }
+        })
     })
 }
 
@@ -216,7 +214,8 @@ pub fn reachable_instances(instances: &[Instance], reachable: &BTreeSet<GroundAt
         literals.iter().filter(|(_, atom)| reachable.contains(atom)).cloned().collect()
     };
     let simplified = |instance: &Instance| {
-        let possible = instance.effects.iter().filter(|(c, _, atom)| positive_in(c, reachable) && reachable.contains(atom));
+        let possible =
+            instance.effects.iter().filter(|(c, _, atom)| positive_in(c, reachable) && reachable.contains(atom));
         let mut effects: BTreeSet<_> =
             possible.map(|(condition, positive, atom)| (known(condition), *positive, atom.clone())).collect();
         let always: BTreeSet<GroundAtom> =

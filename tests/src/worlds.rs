@@ -97,7 +97,7 @@ pub fn run_in(
     confirm: &mut dyn FnMut(&Plan) -> Confirmation,
 ) -> Ran {
     let mut parser = Parser::new(model.hierarchy.clone(), model.parse.clone());
-    let budget = Budget::with_expansions(200_000);
+    let budget = Budget::with_expansions(20_000);
     let mut episode = Episode::new(model.clone(), task.goal.clone(), options.clone(), experience, budget);
     let reset = Reset { seed, scenario: Some(task.scenario.clone()) };
     let mut events: Vec<Event> = Vec::new();

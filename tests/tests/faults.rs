@@ -121,33 +121,43 @@ fn without_imagination_one_failure_is_the_end() {
 
 // Going on from where it is, as outside the experiments.
 
-/// Scenario, proposals, and the length of the last plan.
-const GOING_ON: [(&str, &[u64], usize); 4] = [
-    ("broken_cutboard_lettuce", &[2], 5),
-    ("broken_cutboard_tomato_onion", &[2], 10),
-    ("broken_cutboard_lettuce_bread", &[2], 13),
-    ("broken_cutboard_breadslicer_lettuce", &[2, 3], 5),
+/// Scenario and proposals; of the rest see [`going_on_what_was_spoilt_is_the_end`].
+const GOING_ON: [(&str, &[u64]); 10] = [
+    ("broken_cutboard_lettuce", &[2]),
+    ("broken_cutboard_tomato_onion", &[2]),
+    ("broken_cutboard_lettuce_bread", &[2]),
+    ("broken_cutboard_breadslicer_lettuce", &[2, 3]),
+    // Nobody ever saw a bread being taken out of a toaster untoasted: it takes a last resort.
+    ("broken_toaster_bread", &[2, 3]),
+    ("broken_cutboard_toaster_bread", &[3, 4]),
+    ("exception_coconut", &[2, 3]),
+    ("exception_hokkaido", &[2, 3]),
+    ("exception_coconut_lettuce", &[2, 3]),
+    ("exception_coconut_bread", &[2, 3]),
 ];
 
 #[test]
-fn going_on_food_is_taken_out_of_the_broken_tool() {
-    for (name, proposals, length) in GOING_ON {
+fn going_on_every_fault_that_spoils_nothing_is_worked_around() {
+    for (name, proposals) in GOING_ON {
         for seed in SEEDS {
             let mut world = Watched::new();
             let Ran { account, .. } = ran(&mut world, &fault(name), seed, &going_on(), Experience::new());
-            println!("{name} {seed}: {} proposals after {:?}", account.proposals, failed_calls(&account));
+            let found = (account.proposals, account.plan.as_ref().map(Plan::len));
+            println!("{name} {seed}: {found:?} after {:?}", failed_calls(&account));
             assert!(account.solved(), "{name}, seed {seed}: {:?}", account.ending);
             assert!(proposals.contains(&account.proposals), "{name}, seed {seed}: {}", account.proposals);
-            assert_eq!(account.plan.as_ref().map(Plan::len), Some(length), "{name}, seed {seed}");
+            assert_eq!(account.relaxed, name.contains("toaster"), "{name}, seed {seed}");
             assert_eq!(world.resets, 1, "nothing is undone");
-            for failure in &account.failures {
+            for failure in account.failures.iter().filter(|failure| failure.call.name != *"PICK") {
                 let (tool, food) = (&failure.call.args[1], &failure.call.args[2]);
-                let from_use = Exclusion { object: tool.clone(), call: Some(Symbol::new("USE")) };
-                assert_eq!(failure.excluded, [from_use], "{name}, seed {seed}");
-                assert_eq!(world.times_told(&failure.call), 2, "once, and once more");
-                let agent = failure.call.args[0].clone();
-                let taken = GroundCall { name: Symbol::new("PICK"), args: vec![agent, tool.clone(), food.clone()] };
-                assert_eq!(world.times_told(&taken), 1, "{taken}");
+                // The tool is blamed, from what failed alone.
+                let exclusion = Exclusion { object: tool.clone(), call: Some(failure.call.name.clone()) };
+                assert_eq!(failure.excluded, [exclusion], "{name}, seed {seed}");
+                assert_eq!(world.times_told(&failure.call), 2, "{name}: {}, once and once more", failure.call);
+                // Food is taken out of a tool that does not work; what did not get in is still in the hand.
+                let args = vec![failure.call.args[0].clone(), tool.clone(), food.clone()];
+                let taken = world.times_told(&GroundCall { name: Symbol::new("PICK"), args });
+                assert_eq!(taken, usize::from(failure.call.name == *"USE"), "{name}, seed {seed}: {}", failure.call);
             }
         }
     }
@@ -191,6 +201,7 @@ fn what_failed_in_one_task_is_not_repeated_in_the_next() {
         ("broken_cutboard_lettuce", "broken_cutboard_tomato_onion", paper_options(true)),
         ("broken_cutboard_lettuce", "broken_cutboard_tomato_onion", going_on()),
         ("broken_cutboard_breadslicer_lettuce", "broken_cutboard_breadslicer_lettuce", going_on()),
+        ("exception_coconut", "exception_coconut_lettuce", going_on()),
         ("broken_toaster_bread", "broken_toaster_two_breads", paper_options(true)),
     ];
     for (first, second, options) in runs {

@@ -16,7 +16,7 @@ use typelift::model::{
 use typelift::plan::{Outcome, Restrictions};
 use typelift::world::Dataset;
 use typelift_kitchen::{demonstrations, hierarchy, tasks};
-use typelift_tests::{dataset_of, planning_task};
+use typelift_tests::{dataset_of, planning_task, shape};
 
 /// New names for everything.
 struct Renaming {
@@ -266,33 +266,6 @@ fn other_names_give_the_same_plans_under_other_names() {
             assert_eq!(names.collect::<Vec<_>>(), b.actions.iter().map(|a| a.name.clone()).collect::<Vec<_>>());
         }
     }
-}
-
-/// What an action is, whatever its parameters are called or numbered beyond the call's arguments.
-fn shape(action: &ActionSchema) -> BTreeSet<String> {
-    // Every numbering of the parameters that keeps the call's, which come first.
-    let (fixed, n) = (action.call.args.len(), action.parameters.len());
-    let free: Vec<u32> = (fixed as u32..n as u32).collect();
-    let orders = match free.as_slice() {
-        [] => vec![vec![]],
-        [a] => vec![vec![*a]],
-        [a, b] => vec![vec![*a, *b], vec![*b, *a]],
-        _ => panic!("{} has many parameters beyond its call", action.name),
-    };
-    orders
-        .into_iter()
-        .map(|order| {
-            let map: Vec<u32> = (0..fixed as u32).chain(order).collect();
-            let mut types = vec![None; n];
-            for (i, parameter) in action.parameters.iter().enumerate() {
-                types[map[i] as usize] = Some(parameter.ty);
-            }
-            let preconditions: BTreeSet<_> = action.preconditions.iter().map(|l| l.atom.renamed(&map)).collect();
-            let effects: BTreeSet<_> =
-                action.effects.iter().map(|e| (e.literal.positive, e.literal.atom.renamed(&map))).collect();
-            format!("{:?} {types:?} {preconditions:?} {effects:?}", action.call.name)
-        })
-        .collect()
 }
 
 #[test]

@@ -125,8 +125,13 @@ fn the_same_question_gets_the_same_answer() {
 /// The task with other names, in another order, for its entities.
 fn renamed(task: &Task, multiplier: usize) -> Task {
     let number = |i: usize| (i * multiplier + 11) % 97;
-    let names: BTreeMap<&Symbol, Symbol> =
-        task.init.objects.keys().enumerate().map(|(i, name)| (name, Symbol::from(format!("n{:02}", number(i))))).collect();
+    let names: BTreeMap<&Symbol, Symbol> = task
+        .init
+        .objects
+        .keys()
+        .enumerate()
+        .map(|(i, name)| (name, Symbol::from(format!("n{:02}", number(i)))))
+        .collect();
     let atom = |atom: &GroundAtom| atom.map(|arg| names[arg].clone());
     Task {
         init: State {
