@@ -17,10 +17,11 @@ class Hysteresis:
     def __init__(self, enter, leave):
         self.enter, self.leave, self.yes = enter, leave, set()
 
-    def __call__(self, key, value):
-        below = self.leave if key in self.yes else self.enter
-        (self.yes.add if value < below else self.yes.discard)(key)
-        return key in self.yes
+    def __call__(self, pair, value):
+        pair = frozenset(pair)
+        limit = self.leave if pair in self.yes else self.enter
+        self.yes = self.yes | {pair} if value < limit else self.yes - {pair}
+        return pair in self.yes
 # [/hysteresis]
 
 
@@ -41,22 +42,23 @@ class Robot:
         supports = [name for name, body in bodies.items() if body["kind"] in SUPPORTS]
         items = [name for name, body in bodies.items() if body["kind"] in ITEMS]
         for name, body in bodies.items():
-            attributes, relations = {"xyz": body["xyz"]}, {}  # numbers: they give no atoms
+            entity = {"id": name, "type": body["kind"], "attributes": {}, "relations": {}}
+            entity["attributes"]["xyz"] = body["xyz"]  # numbers: they give no atoms
             if "dirt" in body:
-                attributes["surface"] = "Dirty" if body["dirt"] > 0.5 else "Clean"
+                entity["attributes"]["surface"] = "Dirty" if body["dirt"] > 0.5 else "Clean"
+            if "holds" in body:
+                entity["relations"]["holding"] = body["holds"]  # an id, or None
             if name in items:
                 on = [s for s in supports if self.on((name, s), gap(body, bodies[s]))]
-                near = [i for i in items if i != name and self.near(frozenset((name, i)), apart(body, bodies[i]))]
-                relations = {"on": on[0] if on else None, "near": near}  # at most one; any number
-            if "holds" in body:
-                relations["holding"] = body["holds"]  # at most one
-            entities.append({"id": name, "type": body["kind"], "attributes": attributes, "relations": relations})
+                near = [i for i in items if i != name and self.near({name, i}, apart(body, bodies[i]))]
+                entity["relations"].update(on=on[0] if on else None, near=near)  # near: a list of ids
+            entities.append(entity)
         return {"entities": entities}
 
 
 def serve(robot):
     answers = os.fdopen(os.dup(1), "w")
-    os.dup2(2, 1)  # standard output is for answers: what the simulator prints goes to standard error
+    os.dup2(2, 1)  # what the simulator prints must not go where the answers go
     for request in map(json.loads, sys.stdin):
         answer, refusal = {"id": request["id"], "ok": True}, None
         if request["op"] == "hello":

@@ -117,6 +117,9 @@ pub fn tiny(most: usize) -> impl Strategy<Value = Tiny> {
     })
 }
 
+/// Atoms that hold or do not.
+pub type Signed = BTreeSet<(bool, GroundAtom)>;
+
 /// An action with objects in place of its parameters, conditions and all.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Instance {
@@ -125,9 +128,9 @@ pub struct Instance {
     /// The objects.
     pub objects: Vec<Symbol>,
     /// Signed preconditions.
-    pub preconditions: BTreeSet<(bool, GroundAtom)>,
+    pub preconditions: Signed,
     /// Signed effects with their signed conditions.
-    pub effects: BTreeSet<(BTreeSet<(bool, GroundAtom)>, bool, GroundAtom)>,
+    pub effects: BTreeSet<(Signed, bool, GroundAtom)>,
     /// The cost.
     pub cost: u32,
 }
@@ -178,7 +181,7 @@ pub fn all_instances(model: &ActionModel, task: &Task) -> Vec<Instance> {
     instances
 }
 
-fn positive_in(literals: &BTreeSet<(bool, GroundAtom)>, atoms: &BTreeSet<GroundAtom>) -> bool {
+fn positive_in(literals: &Signed, atoms: &BTreeSet<GroundAtom>) -> bool {
     literals.iter().all(|(positive, atom)| !positive || atoms.contains(atom))
 }
 
@@ -210,7 +213,7 @@ fn reachable_in_order(instances: &[Instance], task: &Task) -> Vec<GroundAtom> {
 /// The instances that are applicable if nothing is ever deleted, without what can never matter there: negations of
 /// unreachable atoms, effects with unreachable conditions, deletes of unreachable or added atoms.
 pub fn reachable_instances(instances: &[Instance], reachable: &BTreeSet<GroundAtom>) -> Vec<Instance> {
-    let known = |literals: &BTreeSet<(bool, GroundAtom)>| -> BTreeSet<(bool, GroundAtom)> {
+    let known = |literals: &Signed| -> Signed {
         literals.iter().filter(|(_, atom)| reachable.contains(atom)).cloned().collect()
     };
     let simplified = |instance: &Instance| {
@@ -226,7 +229,7 @@ pub fn reachable_instances(instances: &[Instance], reachable: &BTreeSet<GroundAt
     instances.iter().filter(|instance| positive_in(&instance.preconditions, reachable)).map(simplified).collect()
 }
 
-fn holds(literals: &BTreeSet<(bool, GroundAtom)>, atoms: &BTreeSet<GroundAtom>) -> bool {
+fn holds(literals: &Signed, atoms: &BTreeSet<GroundAtom>) -> bool {
     literals.iter().all(|(positive, atom)| atoms.contains(atom) == *positive)
 }
 

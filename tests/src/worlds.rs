@@ -30,7 +30,7 @@ impl std::fmt::Debug for Watched {
 impl Watched {
     /// A kitchen in which actions do what they do.
     pub fn new() -> Self {
-        Self::with(|kitchen, call| kitchen.act(call))
+        Self::with(World::act)
     }
 
     /// A kitchen in which an action does what `meddle` says.

@@ -6,6 +6,9 @@
 //!
 //! `cargo test --release -p typelift-tests --test table -- --nocapture` prints the table, over 5 seeds.
 
+use std::fs;
+use std::path::Path;
+
 use typelift::agent::{Ending, Options};
 use typelift::imagine::{self, Guard};
 use typelift::model::{ActionModel, Budget};
@@ -63,10 +66,10 @@ const DIFFERENCES: [(&str, usize, Cell); 6] = [
 const SEEDS: u64 = 5;
 const EXPANSIONS: u64 = 200_000;
 
-fn run(model: &ActionModel, task: &KitchenTask, seed: u64, options: &Options) -> (Cell, Ending, u64) {
+fn run(model: &ActionModel, task: &KitchenTask, seed: u64, options: &Options) -> (Cell, Ending) {
     let account = solve(model, task, seed, options, &Budget::with_expansions(EXPANSIONS));
     let length = account.plan.as_ref().filter(|_| account.solved()).map(typelift::model::Plan::len);
-    (length.map(|length| (account.proposals, length)), account.ending, account.expansions)
+    (length.map(|length| (account.proposals, length)), account.ending)
 }
 
 fn written(cell: Cell) -> String {
@@ -79,28 +82,44 @@ fn every_cell() {
     assert_eq!(models.each_ref().map(|model| model.actions.len()), [13, 39]);
     // Unoptimised, the searches that end only at the limit of expansions would take minutes.
     let seeds = if cfg!(debug_assertions) { 1 } else { SEEDS };
-    println!("#p/|p| over {seeds} seeds, the published cell in brackets where it differs");
-    println!("{:6}{}", "task", VARIANTS.map(|(name, _, _)| format!("{name:>22}")).concat());
     let mut equal = 0;
+    let mut table = format!("| task | {} |\n|---|---|---|---|---|\n", VARIANTS.map(|(name, _, _)| name).join(" | "));
     for (task, (name, published)) in tasks().iter().zip(PUBLISHED) {
         assert_eq!(task.name, name);
-        let mut line = format!("{name:6}");
+        let mut line = format!("| {name} |");
         for (variant, (_, individual, imagine)) in VARIANTS.into_iter().enumerate() {
             let difference = DIFFERENCES.iter().find(|(task, v, _)| (*task, *v) == (name, variant));
             let expected = difference.map_or(published[variant], |(_, _, ours)| *ours);
             for seed in 0..seeds {
-                let (found, ending, _) = run(&models[usize::from(individual)], task, seed, &paper_options(imagine));
+                let (found, ending) = run(&models[usize::from(individual)], task, seed, &paper_options(imagine));
                 assert_eq!(found, expected, "{name}, variant {variant}, seed {seed}: {ending:?}");
             }
             equal += usize::from(expected == published[variant]);
             assert_eq!(expected.is_some(), published[variant].is_some(), "{name}, variant {variant}");
             let beside = difference.map(|_| format!(" ({})", written(published[variant]))).unwrap_or_default();
-            line += &format!("{:>22}", written(expected) + &beside);
+            line += &format!(" {}{beside} |", written(expected));
         }
-        println!("{line}");
+        table += &line;
+        table.push('\n');
     }
-    println!("{equal} of 96 cells equal in #p and |p|; 96 of 96 in solved or not");
     assert_eq!(equal, 96 - DIFFERENCES.len());
+    table += &format!("\n{equal} of 96 cells equal in #p and |p|, 96 of 96 in solved or not.\n");
+    println!("{seeds} seeds\n{table}");
+    hold_document(&table);
+}
+
+/// The table in `docs/reproduction.md` is the one that was just computed; `UPDATE_DOCS=1` writes it there.
+fn hold_document(table: &str) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/reproduction.md");
+    let text = fs::read_to_string(&path).expect("the document");
+    let (before, rest) = text.split_once("<!-- table -->\n").expect("a place for the table");
+    let (_, after) = rest.split_once("<!-- /table -->").expect("the table's end");
+    let right = format!("{before}<!-- table -->\n{table}<!-- /table -->{after}");
+    if std::env::var_os("UPDATE_DOCS").is_some() {
+        fs::write(&path, right).expect("the document is written");
+    } else {
+        assert!(text == right, "docs/reproduction.md shows another table: UPDATE_DOCS=1 writes this one:\n{table}");
+    }
 }
 
 /// What becomes of the table when a rule that the paper leaves open is switched off: the rule matters, and it is the
@@ -119,7 +138,7 @@ fn rules_switched_off() {
                 if variant == 2 && (usual.is_none() || name == "T4.3" || name == "T5.4") {
                     continue;
                 }
-                let (found, _, _) = run(&models[usize::from(individual)], task, 0, &options(imagine));
+                let (found, _) = run(&models[usize::from(individual)], task, 0, &options(imagine));
                 if found != usual {
                     cells.push(format!("{name} {label} {} for {}", written(found), written(usual)));
                 }
@@ -148,7 +167,7 @@ fn rules_switched_off() {
         ("guard by topmost types", 0, changed(&with_guard(Guard::TopTypes))),
         ("guard off", 4, changed(&with_guard(Guard::Off))),
         ("not strict", 1, changed(&plain(TieOrder::SpecificFirst))),
-        ("not strict, successors by name alone", 0, changed(&plain(TieOrder::Name))),
+        ("not strict, successors by name alone", 38, changed(&plain(TieOrder::Name))),
         ("not strict, general actions first", 39, changed(&plain(TieOrder::GeneralFirst))),
     ];
     for (rule, expected, cells) in &experiments {

@@ -137,6 +137,11 @@ fn readme() {
 }
 
 #[test]
+fn reproduction() {
+    tour("docs/reproduction.md");
+}
+
+#[test]
 fn workshop() {
     if python_is_here() {
         tour("examples/workshop/README.md");

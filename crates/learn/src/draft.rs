@@ -3,8 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use typelift_model::{
-    ActionModel, ActionSchema, ClusterKey, Effect, Evidence, Hierarchy, LiftedAtom, LiftedCall, Literal, Parameter, Provenance,
-    Source, Symbol, Term, TypeId, schema_name,
+    ActionModel, ActionSchema, ClusterKey, Effect, Evidence, Hierarchy, LiftedAtom, LiftedCall, Literal, Parameter,
+    Provenance, Source, Symbol, Term, TypeId, schema_name,
 };
 
 use crate::LearnError;

@@ -159,7 +159,9 @@ impl<'a> LandmarkSets<'a> {
     /// Whether every achiever of `b` destroys something that `a` needs.
     fn destroyed_by_achieving(&self, a: FactId, b: FactId) -> bool {
         let needs = self.of_fact(a);
-        self.every_achiever(b, |op| op.deletes.iter().any(|fact| *fact != a && !self.initial[fact.index()] && needs.binary_search(fact).is_ok()))
+        self.every_achiever(b, |op| {
+            op.deletes.iter().any(|fact| *fact != a && !self.initial[fact.index()] && needs.binary_search(fact).is_ok())
+        })
     }
 
     fn ordered(&self, facts: &[FactId]) -> Vec<FactId> {
