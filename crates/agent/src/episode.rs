@@ -6,97 +6,16 @@
 
 use std::sync::Arc;
 
-use typelift_model::{
-    ActionModel, Budget, GroundAction, GroundAtom, GroundCall, Plan, Provenance, State, Stop, Symbol, Task,
-};
+use typelift_model::{ActionModel, Budget, GroundAction, GroundAtom, Plan, Provenance, State, Stop, Symbol, Task};
 use typelift_plan::{Ban, Cut, Exclusion, Outcome};
 
 use crate::account::{Account, Ending, Failure};
 use crate::event::{Event, Observer, PlanSummary};
 use crate::experience::Experience;
 use crate::monitor::{StepResult, compare};
+use crate::options::Options;
 use crate::propose::{Proposal, ProposeError, propose};
-
-/// How an episode goes about its task.
-#[derive(Debug, Clone)]
-pub struct Options {
-    /// Imagine actions for goals that cannot be reached (Algorithm 2).
-    pub imagine: Option<typelift_imagine::Options>,
-    /// Use an action only where all of its effects would be changes.
-    pub strict: bool,
-    /// How plans are looked for.
-    pub plan: typelift_plan::Options,
-    /// Set the world back after a failure, and plan from the initial state.
-    pub restart: bool,
-    /// How often a failed step is tried again; by default once, and never with `restart`.
-    pub retries: Option<u32>,
-    /// Plans proposed at most.
-    pub max_proposals: u64,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self {
-            imagine: None,
-            strict: true,
-            plan: typelift_plan::Options::default(),
-            restart: false,
-            retries: None,
-            max_proposals: 12,
-        }
-    }
-}
-
-impl Options {
-    fn retries(&self) -> u32 {
-        self.retries.unwrap_or(u32::from(!self.restart))
-    }
-}
-
-/// What the driver is to do.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Command {
-    /// Set the world to its initial state; answer with an observation.
-    Reset,
-    /// Observe; answer with an observation.
-    Observe,
-    /// Have this plan approved or rejected, if anyone is to be asked.
-    Propose(Plan),
-    /// Execute this; answer with an observation, a refusal or a time-out.
-    Act(GroundCall),
-    /// It is over.
-    Done(Box<Account>),
-}
-
-/// What the driver reports.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Input {
-    /// The episode may begin.
-    Started,
-    /// What is observed, after a reset, an observation or an action that was executed.
-    Observation(State),
-    /// The plan may be executed.
-    Approve,
-    /// A step of the proposed plan, counted from 1, is not to be taken.
-    Reject {
-        /// The step.
-        step: usize,
-        /// Why.
-        reason: String,
-    },
-    /// Whoever executes declined the action; with what is observed now. The observation decides: if what was
-    /// expected happened all the same, the step succeeded.
-    Refused {
-        /// Why.
-        reason: String,
-        /// What is observed now.
-        state: State,
-    },
-    /// Whoever executes did not finish in time.
-    TimedOut,
-    /// End the episode.
-    Stop,
-}
+use crate::turn::{Command, Input};
 
 #[derive(Debug)]
 enum Phase {

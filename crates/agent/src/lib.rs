@@ -11,13 +11,17 @@ mod episode;
 mod event;
 mod experience;
 mod monitor;
+mod options;
 mod propose;
 mod run;
+mod turn;
 
 pub use account::{Account, Ending, Failure};
-pub use episode::{Command, Episode, Input, Options};
+pub use episode::Episode;
 pub use event::{Event, Observer, PlanSummary, StepSummary};
 pub use experience::{Experience, Remembered};
 pub use monitor::{StepResult, compare};
+pub use options::Options;
 pub use propose::{Proposal, ProposeError, propose};
 pub use run::{Confirmation, RunError, run};
+pub use turn::{Command, Input};

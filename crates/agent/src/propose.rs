@@ -6,6 +6,8 @@ use typelift_imagine::{Imagination, imagine};
 use typelift_model::{ActionModel, Budget, Plan, Task, strict};
 use typelift_plan::{Cut, Explanation, Outcome, Planner, Report, Restrictions};
 
+use crate::options::Options;
+
 /// What planning came to.
 #[derive(Debug)]
 pub struct Proposal {
@@ -81,7 +83,7 @@ pub fn propose(
     model: &ActionModel,
     task: &Task,
     restrictions: &Restrictions,
-    options: &crate::Options,
+    options: &Options,
     budget: &Budget,
 ) -> Result<Proposal, ProposeError> {
     let imagination = match &options.imagine {

@@ -5,9 +5,10 @@ use typelift_model::Plan;
 use typelift_world::{ParseError, Parser, Reset, Scene, World, WorldError};
 
 use crate::account::Account;
-use crate::episode::{Command, Episode, Input};
+use crate::episode::Episode;
 use crate::event::Observer;
 use crate::propose::ProposeError;
+use crate::turn::{Command, Input};
 
 /// What whoever is asked says of a plan.
 #[derive(Debug, Clone, PartialEq, Eq)]

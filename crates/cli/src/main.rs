@@ -3,10 +3,12 @@
 //! One file a subcommand. Data goes to standard output, everything else to standard error. Every way to end has its
 //! exit code, in [`exit`].
 
+mod account;
 mod demo;
 mod exit;
 mod failure;
 mod files;
+mod goal_check;
 mod kitchen;
 mod learn;
 mod limits;

@@ -19,6 +19,11 @@ pub enum Misfit {
         /// The type that the action takes there.
         expected: Symbol,
     },
+    /// There is no such object.
+    Missing {
+        /// The object's name.
+        object: Symbol,
+    },
     /// An object may not be used.
     Excluded {
         /// The object.
@@ -37,6 +42,7 @@ impl fmt::Display for Misfit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Type { object, found, expected } => write!(f, "{object} is of type {found}, not {expected}"),
+            Self::Missing { object } => write!(f, "there is no {object}"),
             Self::Excluded { object } => write!(f, "{object} may not be used any more"),
             Self::NoObject { ty } => write!(f, "there is no {ty} that may be used"),
             Self::Precondition(atom) => write!(f, "it needs {atom}, which cannot be reached"),
@@ -163,7 +169,10 @@ impl Context<'_> {
                 }
                 continue;
             };
-            let ty = *self.task.init.objects.get(*object)?;
+            let Some(&ty) = self.task.init.objects.get(*object) else {
+                misfits.push(Misfit::Missing { object: (*object).clone() });
+                continue;
+            };
             if !hierarchy.is_a(ty, parameter.ty) {
                 let (found, expected) = (hierarchy.name(ty).clone(), hierarchy.name(parameter.ty).clone());
                 misfits.push(Misfit::Type { object: (*object).clone(), found, expected });

@@ -5,25 +5,11 @@
 
 use std::collections::BTreeSet;
 
-use thiserror::Error;
-use typelift_model::{ActionModel, ActionSchema, Budget, GroundAtom, HashSet, Step, Stop, Symbol, Task};
+use typelift_model::{ActionModel, ActionSchema, Budget, GroundAtom, HashSet, Step, Symbol, Task};
 
 use crate::Restrictions;
-use crate::reach::{Facts, RawOp, Reached, reach};
-
-/// A fact of one [`GroundTask`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct FactId(u32);
-
-impl FactId {
-    pub(crate) fn new(index: usize) -> Self {
-        Self(index as u32)
-    }
-
-    pub(crate) fn index(self) -> usize {
-        self.0 as usize
-    }
-}
+use crate::fact::{FactId, Facts};
+use crate::reach::{Cut, RawOp, Reached, reach};
 
 /// A ground action of one [`GroundTask`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -37,17 +23,6 @@ impl OpId {
     pub(crate) fn index(self) -> usize {
         self.0 as usize
     }
-}
-
-/// Why grounding ended early.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
-pub enum Cut {
-    /// The bytes allowed are used up.
-    #[error("out of memory while grounding")]
-    OutOfMemory,
-    /// It was told to stop.
-    #[error("stopped while grounding")]
-    Stopped(Stop),
 }
 
 /// In which order ground actions are tried.
@@ -286,6 +261,6 @@ impl GroundTask {
 
     /// Every reachable fact, in the order in which it was numbered.
     pub fn reached_facts(&self) -> impl Iterator<Item = FactId> + '_ {
-        (0..self.facts.len()).map(FactId::new).filter(|&fact| self.facts.is_reached(fact))
+        self.facts.ids().filter(|&fact| self.facts.is_reached(fact))
     }
 }

@@ -16,7 +16,8 @@ use std::collections::{BTreeSet, VecDeque};
 
 use typelift_model::{GroundAtom, Symbol};
 
-use crate::ground::{FactId, GroundTask, Op, OpId};
+use crate::fact::FactId;
+use crate::ground::{GroundTask, Op, OpId};
 
 /// Landmarks in the order in which they are to be passed.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -11,6 +11,7 @@
 #![deny(missing_docs)]
 
 mod explain;
+mod fact;
 mod ground;
 pub mod heuristic;
 mod landmark;
@@ -21,8 +22,10 @@ mod search;
 mod successor;
 
 pub use explain::{Explanation, Misfit, Nearest, UnreachableGoal};
-pub use ground::{ConditionalEffect, Cut, FactId, GroundTask, Op, OpId, TieOrder, ground};
+pub use fact::FactId;
+pub use ground::{ConditionalEffect, GroundTask, Op, OpId, TieOrder, ground};
 pub use landmark::{LandmarkSequence, landmark_sequences};
 pub use planner::{Options, Planner};
+pub use reach::Cut;
 pub use restrict::{Ban, Exclusion, Restrictions};
 pub use search::{Outcome, Report};

@@ -4,9 +4,10 @@ use typelift_model::{ActionModel, Budget, GroundAtom, Task};
 
 use crate::Restrictions;
 use crate::explain::{Explanation, unreachable};
-use crate::ground::{Cut, GroundTask, TieOrder, ground};
+use crate::ground::{GroundTask, TieOrder, ground};
 use crate::heuristic::OrderedLandmarks;
 use crate::landmark::landmark_sequences;
+use crate::reach::Cut;
 use crate::search::{Outcome, Report, Search};
 use crate::successor::holds;
 

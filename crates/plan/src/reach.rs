@@ -7,96 +7,24 @@
 //! parameters that no positive precondition mentions range over all objects of their type. Negative preconditions
 //! are ignored, as deletes are. An effect with a condition is reached when the positive part of it is.
 
-use typelift_model::{ActionModel, ActionSchema, Budget, GroundAtom, HashMap, LiftedAtom, Symbol, Task, Term, TypeId};
+use thiserror::Error;
+use typelift_model::{ActionModel, ActionSchema, Budget, GroundAtom, HashMap, LiftedAtom, Stop, Symbol, Task, Term};
 
 use crate::Restrictions;
-use crate::ground::{Cut, FactId};
-
-/// An object of the task, by its place in name order; only this module's tables make them.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub(crate) struct ObjectId(u32);
+use crate::fact::{FactId, Facts, ObjectId};
 
 /// How often, in ground actions, the budget is asked whether to stop.
 const POLL_INTERVAL: usize = 1 << 12;
 
-/// Ground facts by number, with the order in which they were reached.
-#[derive(Debug, Default)]
-pub(crate) struct Facts {
-    pub(crate) objects: Vec<(Symbol, TypeId)>,
-    object_ids: HashMap<Symbol, ObjectId>,
-    predicate_ids: HashMap<Symbol, u32>,
-    predicates: Vec<Symbol>,
-    keys: Vec<(u32, Box<[ObjectId]>)>,
-    ids: HashMap<(u32, Box<[ObjectId]>), FactId>,
-    /// The order in which facts were reached; `u32::MAX` for those that never were.
-    pub(crate) reached_at: Vec<u32>,
-}
-
-impl Facts {
-    pub(crate) fn new(task: &Task) -> Self {
-        let objects: Vec<_> = task.init.objects.iter().map(|(name, ty)| (name.clone(), *ty)).collect();
-        let object_ids = objects.iter().zip(0..).map(|((name, _), i)| (name.clone(), ObjectId(i))).collect();
-        Self { objects, object_ids, ..Self::default() }
-    }
-
-    fn object_id(&self, name: &Symbol) -> Option<ObjectId> {
-        self.object_ids.get(name).copied()
-    }
-
-    fn predicate_id(&mut self, name: &Symbol) -> u32 {
-        if let Some(&id) = self.predicate_ids.get(name) {
-            return id;
-        }
-        let id = self.predicates.len() as u32;
-        self.predicates.push(name.clone());
-        self.predicate_ids.insert(name.clone(), id);
-        id
-    }
-
-    fn intern(&mut self, predicate: u32, args: Box<[ObjectId]>) -> FactId {
-        let key = (predicate, args);
-        if let Some(&id) = self.ids.get(&key) {
-            return id;
-        }
-        let id = FactId::new(self.keys.len());
-        self.keys.push(key.clone());
-        self.ids.insert(key, id);
-        self.reached_at.push(u32::MAX);
-        id
-    }
-
-    /// The number of a ground atom; `None` if it mentions an object that the task does not have.
-    pub(crate) fn intern_atom(&mut self, atom: &GroundAtom) -> Option<FactId> {
-        let args = atom.args.iter().map(|arg| self.object_id(arg)).collect::<Option<_>>()?;
-        let predicate = self.predicate_id(&atom.predicate);
-        Some(self.intern(predicate, args))
-    }
-
-    pub(crate) fn find(&self, atom: &GroundAtom) -> Option<FactId> {
-        let predicate = *self.predicate_ids.get(&atom.predicate)?;
-        let args = atom.args.iter().map(|arg| self.object_id(arg)).collect::<Option<_>>()?;
-        self.ids.get(&(predicate, args)).copied()
-    }
-
-    pub(crate) fn atom(&self, id: FactId) -> GroundAtom {
-        let (predicate, args) = &self.keys[id.index()];
-        GroundAtom {
-            predicate: self.predicates[*predicate as usize].clone(),
-            args: args.iter().map(|arg| self.name(*arg).clone()).collect(),
-        }
-    }
-
-    pub(crate) fn len(&self) -> usize {
-        self.keys.len()
-    }
-
-    pub(crate) fn is_reached(&self, id: FactId) -> bool {
-        self.reached_at[id.index()] != u32::MAX
-    }
-
-    pub(crate) fn name(&self, object: ObjectId) -> &Symbol {
-        &self.objects[object.0 as usize].0
-    }
+/// Why grounding ended early.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+pub enum Cut {
+    /// The bytes allowed are used up.
+    #[error("out of memory while grounding")]
+    OutOfMemory,
+    /// It was told to stop.
+    #[error("stopped while grounding")]
+    Stopped(Stop),
 }
 
 /// A ground action as reachability finds it.
@@ -163,7 +91,7 @@ pub(crate) fn reach(
             schemas.push(compiled);
         }
     }
-    let mut triggers: Vec<Vec<(usize, usize)>> = vec![Vec::new(); facts.predicates.len()];
+    let mut triggers: Vec<Vec<(usize, usize)>> = vec![Vec::new(); facts.predicate_count()];
     for (s, schema) in schemas.iter().enumerate() {
         for (k, pattern) in schema.preconditions.iter().enumerate() {
             triggers[pattern.predicate as usize].push((s, k));
@@ -195,7 +123,7 @@ pub(crate) fn reach(
         let fact = join.queue[next];
         next += 1;
         join.index(fact);
-        let predicate = join.facts.keys[fact.index()].0 as usize;
+        let predicate = join.facts.predicate(fact) as usize;
         // Facts of predicates that no precondition mentions trigger nothing.
         for &(s, k) in triggers.get(predicate).map_or(&[][..], Vec::as_slice) {
             let schema = &schemas[s];
@@ -281,7 +209,7 @@ impl Join<'_> {
             if self.facts.is_reached(fact) {
                 continue;
             }
-            self.facts.reached_at[fact.index()] = self.queue.len() as u32;
+            self.facts.reach(fact);
             self.queue.push(fact);
             for waiting in self.waiting.remove(&fact).unwrap_or_default() {
                 let pending = &mut self.pending[waiting];
@@ -294,10 +222,10 @@ impl Join<'_> {
     }
 
     fn index(&mut self, fact: FactId) {
-        let (predicate, args) = &self.facts.keys[fact.index()];
-        self.by_predicate.entry(*predicate).or_default().push(fact);
+        let (predicate, args) = (self.facts.predicate(fact), self.facts.args(fact));
+        self.by_predicate.entry(predicate).or_default().push(fact);
         for (position, object) in args.iter().enumerate() {
-            self.by_argument.entry((*predicate, position, *object)).or_default().push(fact);
+            self.by_argument.entry((predicate, position, *object)).or_default().push(fact);
         }
     }
 
@@ -310,7 +238,7 @@ impl Join<'_> {
         fact: FactId,
         binding: &mut [Option<ObjectId>],
     ) -> Option<Vec<usize>> {
-        let args = &self.facts.keys[fact.index()].1;
+        let args = self.facts.args(fact);
         let mut bound = Vec::new();
         if args.len() != pattern.args.len() {
             return None;
@@ -345,7 +273,7 @@ impl Join<'_> {
         object: ObjectId,
         binding: &[Option<ObjectId>],
     ) -> bool {
-        schema.fits[parameter][object.0 as usize]
+        schema.fits[parameter][object.index()]
             && schema.schema.distinct.iter().all(|&(a, b)| {
                 let (a, b) = (a as usize, b as usize);
                 !(a == parameter && binding[b] == Some(object) || b == parameter && binding[a] == Some(object))
@@ -402,7 +330,7 @@ impl Join<'_> {
 
     fn complete(&mut self, schema: &Compiled<'_>, binding: &mut Vec<Option<ObjectId>>) -> Result<(), Cut> {
         let Some(free) = binding.iter().position(Option::is_none) else { return self.emit(schema, binding) };
-        for object in (0..self.facts.objects.len() as u32).map(ObjectId) {
+        for object in self.facts.object_ids() {
             if self.may_take(schema, free, object, binding) {
                 binding[free] = Some(object);
                 self.complete(schema, binding)?;

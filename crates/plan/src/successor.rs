@@ -1,6 +1,7 @@
 //! Packed states and their successors.
 
-use crate::ground::{FactId, GroundTask, Op, OpId};
+use crate::fact::FactId;
+use crate::ground::{GroundTask, Op, OpId};
 
 /// The number of 64-bit words that a state of so many facts takes.
 pub(crate) fn words(facts: usize) -> usize {

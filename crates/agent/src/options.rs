@@ -1,0 +1,38 @@
+//! How an episode goes about its task.
+
+/// How an episode goes about its task.
+#[derive(Debug, Clone)]
+pub struct Options {
+    /// Imagine actions for goals that cannot be reached (Algorithm 2).
+    pub imagine: Option<typelift_imagine::Options>,
+    /// Use an action only where all of its effects would be changes.
+    pub strict: bool,
+    /// How plans are looked for.
+    pub plan: typelift_plan::Options,
+    /// Set the world back after a failure, and plan from the initial state.
+    pub restart: bool,
+    /// How often a failed step is tried again; by default once, and never with `restart`.
+    pub retries: Option<u32>,
+    /// Plans proposed at most.
+    pub max_proposals: u64,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            imagine: None,
+            strict: true,
+            plan: typelift_plan::Options::default(),
+            restart: false,
+            retries: None,
+            max_proposals: 12,
+        }
+    }
+}
+
+impl Options {
+    /// How often a failed step is tried again.
+    pub(crate) fn retries(&self) -> u32 {
+        self.retries.unwrap_or(u32::from(!self.restart))
+    }
+}

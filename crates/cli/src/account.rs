@@ -1,0 +1,149 @@
+//! The account of a task: for people, and as JSON.
+
+use serde::Serialize;
+use typelift::agent::{Account, Ending, Experience};
+use typelift::model::{GroundCall, Plan};
+use typelift::plan::Exclusion;
+
+use crate::plan_text::plan_size;
+use crate::style::{BAD, DIM, GOOD, HEAD, count};
+
+/// What is printed of a task with `--json`.
+#[derive(Serialize)]
+pub(crate) struct TaskReport<'a> {
+    task: &'a str,
+    solved: bool,
+    ending: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    why: Option<String>,
+    proposals: u64,
+    actions: u64,
+    plan_length: Option<usize>,
+    imagined_steps: Option<usize>,
+    planning_seconds: f64,
+    expansions: u64,
+    ground_actions: u64,
+    failures: Vec<FailureReport>,
+    excluded: Vec<ExclusionReport>,
+}
+
+#[derive(Serialize)]
+struct FailureReport {
+    proposal: u64,
+    step: usize,
+    action: String,
+    call: GroundCall,
+    result: typelift::agent::StepResult,
+    reason: Option<String>,
+    imagined: bool,
+}
+
+#[derive(Serialize)]
+struct ExclusionReport {
+    object: String,
+    from: Option<String>,
+    reason: String,
+    count: u64,
+}
+
+/// How an episode ended, as a word and, if it is not solved, in words.
+fn ending(account: &Account) -> (&'static str, Option<String>) {
+    match &account.ending {
+        Ending::Solved => ("solved", None),
+        Ending::NoPlan(explanation) => ("no_plan", Some(format!("nothing left to try: {explanation}"))),
+        Ending::ProposalLimit(n) => ("proposal_limit", Some(format!("gave up after {}", count(*n, "proposal")))),
+        Ending::GaveUp => ("gave_up", Some("planning gave up at the limit of expansions".to_owned())),
+        Ending::OutOfTime => ("out_of_time", Some("out of time".to_owned())),
+        Ending::OutOfMemory => ("out_of_memory", Some("out of memory".to_owned())),
+        Ending::Stopped => ("stopped", Some("stopped".to_owned())),
+    }
+}
+
+fn exclusion_text(exclusion: &Exclusion) -> String {
+    match &exclusion.call {
+        None => exclusion.object.to_string(),
+        Some(call) => format!("{} from {call}", exclusion.object),
+    }
+}
+
+/// The account of a task, for people.
+pub(crate) fn summary(name: &str, account: &Account, planning_ms: u128) -> String {
+    let (_, why) = ending(account);
+    let proposals = count(account.proposals, "proposal");
+    let actions = count(account.actions, "action");
+    let mut text = match &account.plan {
+        Some(plan) if account.solved() && account.proposals == 0 && plan.is_empty() => {
+            format!("{HEAD}{name}{HEAD:#}  {GOOD}solved{GOOD:#}: the goal held already\n")
+        }
+        Some(plan) if account.solved() => format!(
+            "{HEAD}{name}{HEAD:#}  {GOOD}solved{GOOD:#}: {}, {proposals}, {actions} executed, planned in {planning_ms} ms\n",
+            plan_size(plan)
+        ),
+        _ => format!(
+            "{HEAD}{name}{HEAD:#}  {BAD}not solved{BAD:#}: {proposals}, {actions} executed, planned in {planning_ms} ms\n"
+        ),
+    };
+    for failure in &account.failures {
+        let reason = failure.reason.as_ref().map(|reason| format!(" ({reason})")).unwrap_or_default();
+        text += &format!(
+            "  {DIM}proposal {}, step {}{DIM:#}  {}: {}{reason}\n",
+            failure.proposal,
+            failure.step,
+            failure.call,
+            failure.result.phrase()
+        );
+        for exclusion in &failure.excluded {
+            text += &format!("    excluded {}\n", exclusion_text(exclusion));
+        }
+    }
+    if account.lifted {
+        text += "  exclusions of earlier tasks were lifted, since nothing else was left\n";
+    }
+    if account.relaxed {
+        text += "  actions were used although some of their effects held already, since nothing else was left\n";
+    }
+    for line in why.iter().flat_map(|why| why.lines()) {
+        text += &format!("  {line}\n");
+    }
+    text
+}
+
+pub(crate) fn report<'a>(name: &'a str, account: &Account, experience: &Experience, seconds: f64) -> TaskReport<'a> {
+    let (word, why) = ending(account);
+    let plan = account.plan.as_ref().filter(|_| account.solved());
+    TaskReport {
+        task: name,
+        solved: account.solved(),
+        ending: word,
+        why,
+        proposals: account.proposals,
+        actions: account.actions,
+        plan_length: plan.map(Plan::len),
+        imagined_steps: plan.map(|plan| plan.steps.iter().filter(|step| step.imagined.is_some()).count()),
+        planning_seconds: seconds,
+        expansions: account.expansions,
+        ground_actions: account.ground_actions,
+        failures: account
+            .failures
+            .iter()
+            .map(|failure| FailureReport {
+                proposal: failure.proposal,
+                step: failure.step,
+                action: failure.action.to_string(),
+                call: failure.call.clone(),
+                result: failure.result,
+                reason: failure.reason.clone(),
+                imagined: failure.imagined,
+            })
+            .collect(),
+        excluded: experience
+            .exclusions()
+            .map(|(exclusion, remembered)| ExclusionReport {
+                object: exclusion.object.to_string(),
+                from: exclusion.call.as_ref().map(ToString::to_string),
+                reason: remembered.reason.clone(),
+                count: remembered.count,
+            })
+            .collect(),
+    }
+}

@@ -1,0 +1,51 @@
+//! Holds a task's goal against the first state that an environment shows.
+
+use typelift::model::{ActionModel, GroundCall};
+use typelift::world::{Acted, Parser, Reset, Scene, TaskError, TaskFile, World, WorldError, check_goal};
+
+/// A world whose first state is held against the task's goal.
+pub(crate) struct GoalCheck<'a> {
+    pub(crate) world: &'a mut dyn World,
+    pub(crate) model: &'a ActionModel,
+    pub(crate) task: &'a TaskFile,
+    /// What is wrong with the goal, if the world was stopped for it.
+    pub(crate) error: Option<TaskError>,
+}
+
+impl GoalCheck<'_> {
+    fn checked(&mut self, scene: Scene) -> Result<Scene, WorldError> {
+        let mut parser = Parser::new(self.model.hierarchy.clone(), self.model.parse.clone());
+        // A scene that cannot be parsed is reported by whoever parses it next.
+        if let Ok(state) = parser.parse(&scene)
+            && let Err(error) = check_goal(&self.task.goal, &state, &self.model.predicates)
+        {
+            let message = error.to_string();
+            self.error = Some(error);
+            return Err(WorldError::new(message));
+        }
+        Ok(scene)
+    }
+}
+
+impl World for GoalCheck<'_> {
+    fn name(&self) -> String {
+        self.world.name()
+    }
+
+    fn can_reset(&self) -> bool {
+        self.world.can_reset()
+    }
+
+    fn reset(&mut self, reset: &Reset) -> Result<Scene, WorldError> {
+        let scene = self.world.reset(reset)?;
+        self.checked(scene)
+    }
+
+    fn observe(&mut self) -> Result<Scene, WorldError> {
+        self.world.observe()
+    }
+
+    fn act(&mut self, call: &GroundCall) -> Result<Acted, WorldError> {
+        self.world.act(call)
+    }
+}
