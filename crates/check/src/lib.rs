@@ -115,3 +115,89 @@ fn apply(action: &GroundAction, state: &mut State) {
         state.atoms.insert(atom.clone());
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use typelift_model::{
+        ActionSchema, Effect, GroundCall, Hierarchy, LiftedAtom, LiftedCall, Literal, Parameter, Provenance, Term,
+    };
+
+    use super::*;
+
+    fn lifted(text: &str) -> LiftedAtom {
+        LiftedAtom::parse(text).expect("an atom")
+    }
+
+    fn ground(text: &str) -> GroundAtom {
+        GroundAtom::parse(text).expect("an atom")
+    }
+
+    /// `go(?0, ?1)`: from one room to a different one that is not locked; where the light was on, it goes out.
+    fn model() -> ActionModel {
+        let hierarchy = Hierarchy::from_edges([("room", "place"), ("lamp", "object")]).expect("a tree");
+        let room = hierarchy.id("place").expect("declared");
+        let parameter = |name: &str| Parameter { name: name.into(), ty: room };
+        let go = ActionSchema {
+            name: "go".into(),
+            call: LiftedCall { name: "GO".into(), args: vec![Term::Param(1)] },
+            parameters: vec![parameter("from"), parameter("to")],
+            preconditions: vec![Literal::positive(lifted("in(?0)")), Literal::negative(lifted("locked(?1)"))],
+            distinct: vec![(0, 1)],
+            effects: vec![
+                Effect::always(Literal::positive(lifted("in(?1)"))),
+                Effect::always(Literal::negative(lifted("in(?0)"))),
+                Effect {
+                    condition: vec![Literal::positive(lifted("lit(?0)"))],
+                    literal: Literal::negative(lifted("lit(?0)")),
+                },
+            ],
+            cost: 1,
+            provenance: Provenance::Given,
+        };
+        ActionModel { hierarchy, actions: vec![go], ..ActionModel::default() }
+    }
+
+    fn task(goal: &str) -> Task {
+        let model = model();
+        let id = |name| model.hierarchy.id(name).expect("declared");
+        let mut task = Task { goal: vec![ground(goal)], ..Task::default() };
+        for (object, ty) in [("hall", "room"), ("attic", "room"), ("cellar", "room"), ("bulb", "lamp")] {
+            task.init.objects.insert(object.into(), id(ty));
+        }
+        task.init.atoms.extend(["in(hall)", "lit(hall)", "lit(attic)", "locked(cellar)"].map(ground));
+        task
+    }
+
+    fn go(from: &str, to: &str) -> Step {
+        model().actions[0].step(vec![from.into(), to.into()])
+    }
+
+    fn verdict(steps: Vec<Step>, goal: &str) -> Result<State, String> {
+        check(&model(), &task(goal), &Plan { steps }).map_err(|invalid| invalid.to_string())
+    }
+
+    #[test]
+    fn a_valid_plan_gives_its_final_state() {
+        let state = verdict(vec![go("hall", "attic")], "in(attic)").expect("valid");
+        let atoms: Vec<String> = state.atoms.iter().map(ToString::to_string).collect();
+        assert_eq!(atoms, ["in(attic)", "lit(attic)", "locked(cellar)"], "where it leaves, the light goes out");
+    }
+
+    #[test]
+    fn each_way_to_be_invalid_is_named() {
+        let wrong = |steps, message: &str| assert_eq!(verdict(steps, "in(attic)"), Err(message.to_owned()));
+        wrong(vec![], "the goal in(attic) does not hold in the end");
+        wrong(vec![go("attic", "hall")], "step 1: go needs in(attic)");
+        wrong(vec![go("hall", "cellar")], "step 1: go needs not locked(cellar)");
+        wrong(vec![go("hall", "attic"), go("hall", "attic")], "step 2: go needs in(hall)");
+        wrong(vec![go("hall", "hall")], "step 1: go takes different objects where both are hall");
+        wrong(vec![go("hall", "moon")], "step 1: there is no object `moon`");
+        wrong(vec![go("hall", "bulb")], "step 1: bulb is of type lamp, where go takes one of type place");
+        let unknown = Step { action: "fly".into(), ..go("hall", "attic") };
+        wrong(vec![unknown], "step 1: there is no action `fly`");
+        let call = GroundCall { name: "GO".into(), args: vec!["hall".into()] };
+        wrong(vec![Step { call, ..go("hall", "attic") }], "step 1: go is executed as GO(attic), not as GO(hall)");
+        let short = Step { objects: vec!["hall".into()], ..go("hall", "attic") };
+        wrong(vec![short], "step 1: go takes 2 objects, not 1");
+    }
+}

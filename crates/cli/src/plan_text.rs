@@ -17,17 +17,12 @@ pub(crate) fn imagined_note(step: &Step, hierarchy: &Hierarchy) -> Option<String
     ))
 }
 
-/// The steps, numbered, a line each; what an imagined one rests on follows on the same line, or on the next if the
-/// line would be longer than 80 columns.
+/// The steps, numbered, a line each, with what an imagined one rests on at its end.
 pub(crate) fn numbered_steps(plan: &Plan, hierarchy: &Hierarchy) -> String {
     let mut text = String::new();
     for (i, step) in plan.steps.iter().enumerate() {
-        let line = format!("{:>3}  {}", i + 1, step.call);
-        let _ = match imagined_note(step, hierarchy) {
-            None => writeln!(text, "{line}"),
-            Some(note) if line.len() + 2 + note.len() <= 80 => writeln!(text, "{line}  {IMAGINED}{note}{IMAGINED:#}"),
-            Some(note) => writeln!(text, "{line}\n     {IMAGINED}{note}{IMAGINED:#}"),
-        };
+        let note = imagined_note(step, hierarchy).map(|note| format!("  {IMAGINED}{note}{IMAGINED:#}"));
+        let _ = writeln!(text, "{:>3}  {}{}", i + 1, step.call, note.unwrap_or_default());
     }
     text
 }

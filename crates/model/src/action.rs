@@ -259,11 +259,9 @@ pub struct GroundAction {
 }
 
 impl GroundAction {
-    /// The preconditions that do not hold in `state`. An unknown atom counts as not holding either way.
+    /// The preconditions that do not hold in `state`. An unknown atom counts as not holding.
     pub fn unmet<'a>(&'a self, state: &'a State) -> impl Iterator<Item = &'a (GroundAtom, bool)> {
-        self.preconditions.iter().filter(|(atom, positive)| {
-            if *positive { !state.holds(atom) } else { state.holds(atom) || state.unknown.contains(atom) }
-        })
+        self.preconditions.iter().filter(|(atom, positive)| state.holds(atom) != *positive)
     }
 }
 

@@ -7,6 +7,9 @@ use crate::{GroundAtom, Symbol, TypeId};
 /// A symbolic state: its objects with their types and its true atoms; every other atom is false unless it is
 /// listed as unknown.
 ///
+/// Planning takes an unknown atom as one that does not hold; learning takes it neither as holding nor as changed; and
+/// whoever compares expectation with observation lets it count neither way.
+///
 /// The types are ids of the hierarchy against which the state was read.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct State {
