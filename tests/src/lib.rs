@@ -32,9 +32,8 @@ pub fn dataset_of(demonstrations: &[Demonstration]) -> Dataset {
             .map(|call| TraceAction { call: call.clone(), executed: None, reason: None, time: None })
             .collect(),
     };
-    let traces = demonstrations.iter().map(trace).collect();
-    let predicates = parser.predicates();
-    Dataset { hierarchy: hierarchy(), parse: ParseConfig::default(), predicates, traces }
+    let traces: Vec<Trace> = demonstrations.iter().map(trace).collect();
+    Dataset::new(&parser, traces)
 }
 
 /// The model of the kitchen's eight demonstrations: generalized, or individual actions only.

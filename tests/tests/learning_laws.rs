@@ -491,6 +491,43 @@ fn assert_supported(model: &ActionModel, individual: bool) {
     assert!(explained.values().all(|&times| times == 1), "and in one only");
 }
 
+proptest! {
+    #![proptest_config(config(500))]
+
+    /// The same step again and again, on objects of other types, with other atoms around: most of it becomes one
+    /// action, whose parameters correspond to those of the clusters in ways that are far from obvious.
+    #[test]
+    fn preconditions_held_whatever_the_parameters_correspond_to(
+        base in seen(),
+        variants in prop::collection::vec(
+            (prop::collection::vec(0..2_usize, 5), prop::collection::vec(seen_atom(5), 0..4), any_order()), 1..6,
+        ),
+    ) {
+        let h = small_types();
+        let mut evidence = Evidence::default();
+        for (types, around, order) in &variants {
+            let mut variant = base.clone();
+            for (ty, index) in variant.objects.values_mut().zip(types) {
+                *ty = h.id(["cup", "lid"][*index]).expect("a type");
+            }
+            // More that holds before and after is no part of the effect.
+            let known = around.iter().filter(|atom| atom.args.iter().all(|arg| variant.objects.contains_key(arg)));
+            for atom in known.filter(|atom| !base.adds().contains(atom) && !base.deletes().contains(atom)) {
+                variant.before.insert(atom.clone());
+                variant.after.insert(atom.clone());
+            }
+            evidence.merge(&variant.renamed(&renaming(&variant, order)).evidence());
+        }
+        let clusters = evidence.clusters.len();
+        for individual in [true, false] {
+            let model = learned(&h, evidence.clone(), individual);
+            assert_supported(&model, individual);
+            let expected = if individual { clusters } else { clusters.min(1) };
+            prop_assert_eq!(model.actions.len(), expected, "the same step is one action");
+        }
+    }
+}
+
 #[test]
 fn preconditions_held_whenever_an_action_was_demonstrated() {
     for individual in [true, false] {

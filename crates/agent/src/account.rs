@@ -12,6 +12,9 @@ pub enum Ending {
     Solved,
     /// There is nothing left to try.
     NoPlan(Explanation),
+    /// The plan that was left had been carried out from the very same state before, as expected, and did not lead to
+    /// the goal: something happens besides what the model says.
+    Circular,
     /// The proposals allowed are used up.
     ProposalLimit(u64),
     /// The expansions allowed are used up.
@@ -62,7 +65,7 @@ pub struct Account {
     pub expansions: u64,
     /// Ground actions of the largest search.
     pub ground_actions: u64,
-    /// Whether exclusions of earlier tasks were lifted.
+    /// Whether exclusions were lifted, since nothing else was left.
     pub lifted: bool,
     /// Whether actions were used although some of what they add held already.
     pub relaxed: bool,

@@ -44,6 +44,10 @@ pub struct Episode {
     plan: Plan,
     next_step: usize,
     attempts: u32,
+    /// Plans that were begun, with the states they were begun in.
+    begun: Vec<(State, Plan)>,
+    /// Only bans count any more, not exclusions: nothing else was left.
+    bans_only: bool,
     account: Account,
 }
 
@@ -69,6 +73,8 @@ impl Episode {
             plan: Plan::default(),
             next_step: 0,
             attempts: 0,
+            begun: Vec::new(),
+            bans_only: false,
             account: Account {
                 ending: Ending::Stopped,
                 proposals: 0,
@@ -154,7 +160,12 @@ impl Episode {
             Err(error) => return Err(error),
         };
         let ending = match &proposal.outcome {
+            // The same plan from the same state did not lead to the goal, though no step of it failed.
+            Outcome::Solved(plan) if self.begun.iter().any(|(state, begun)| begun == plan && *state == self.state) => {
+                Ending::Circular
+            }
             Outcome::Solved(plan) => {
+                self.begun.push((self.state.clone(), plan.clone()));
                 self.plan = plan.clone();
                 self.planned_with = proposal.model;
                 self.next_step = 0;
@@ -174,11 +185,13 @@ impl Episode {
         Ok(self.end(ending, observer))
     }
 
-    /// Plans; where there is no plan, without the exclusions of earlier tasks; and where an episode that goes on from
-    /// where it is still finds none, without strictness.
+    /// Plans. Where there is no plan, it tries without the exclusions of earlier tasks; and an episode that goes on
+    /// from where it is then tries without any exclusion, and at last without strictness. Ground actions that failed
+    /// stay banned throughout.
     fn plan_with_last_resorts(&mut self, observer: &mut dyn Observer) -> Result<Proposal, ProposeError> {
         let none = |proposal: &Proposal| matches!(proposal.outcome, Outcome::Unsolvable | Outcome::GaveUp);
-        let mut proposal = self.plan_once(&self.options.clone(), observer)?;
+        let options = self.options.clone();
+        let mut proposal = self.plan_once(&options, observer)?;
         if none(&proposal) && self.inherited.exclusions().next().is_some() {
             let mut lifted = self.experience.clone();
             lifted.lift_exclusions_of(&self.inherited);
@@ -186,16 +199,28 @@ impl Episode {
                 self.experience = lifted;
                 self.account.lifted = true;
                 observer.event(&Event::Lifted);
-                proposal = self.plan_once(&self.options.clone(), observer)?;
+                proposal = self.plan_once(&options, observer)?;
             }
         }
-        if none(&proposal) && self.options.strict && !self.options.restart && !self.account.failures.is_empty() {
-            let plain = Options { strict: false, ..self.options.clone() };
-            let relaxed = self.plan_once(&plain, observer)?;
-            if !none(&relaxed) {
+        if !none(&proposal) || options.restart || self.account.failures.is_empty() {
+            return Ok(proposal);
+        }
+        if !self.bans_only && self.experience.exclusions().next().is_some() {
+            self.bans_only = true;
+            let without = self.plan_once(&options, observer)?;
+            if !none(&without) {
+                self.account.lifted = true;
+                observer.event(&Event::Lifted);
+                return Ok(without);
+            }
+            self.bans_only = false;
+        }
+        if options.strict {
+            let plain = self.plan_once(&Options { strict: false, ..options }, observer)?;
+            if !none(&plain) {
                 self.account.relaxed = true;
                 observer.event(&Event::Relaxed);
-                return Ok(relaxed);
+                return Ok(plain);
             }
         }
         Ok(proposal)
@@ -204,7 +229,11 @@ impl Episode {
     fn plan_once(&mut self, options: &Options, observer: &mut dyn Observer) -> Result<Proposal, ProposeError> {
         observer.event(&Event::PlanningStarted { proposal: self.account.proposals + 1 });
         let task = Task { init: self.state.clone(), goal: self.goal.clone() };
-        let planned = propose(&self.model, &task, &self.experience.restrictions(), options, &self.budget);
+        let mut restrictions = self.experience.restrictions();
+        if self.bans_only {
+            restrictions.excluded.clear();
+        }
+        let planned = propose(&self.model, &task, &restrictions, options, &self.budget);
         let report = planned.as_ref().map(Proposal::report).unwrap_or_default();
         self.account.expansions += report.expansions;
         self.account.ground_actions = self.account.ground_actions.max(report.ground_actions);
@@ -233,12 +262,15 @@ impl Episode {
             observer.event(&Event::Drifted { step: self.next_step + 1, missing });
             return self.propose(observer);
         }
+        if let Some(stop) = self.budget.stopped() {
+            return Ok(self.end(cut_ending(Cut::Stopped(stop)), observer));
+        }
         self.phase = Phase::AwaitingResult;
         Ok(Command::Act(self.plan.steps[self.next_step].call.clone()))
     }
 
     fn missing_precondition(&self) -> Option<String> {
-        let Some(action) = self.expected() else { return Some("an object that is gone".to_owned()) };
+        let Some(action) = self.expected() else { return Some("an object of it".to_owned()) };
         let (atom, positive) = action.unmet(&self.state).next()?;
         Some(format!("{}{atom}", if *positive { "" } else { "not " }))
     }

@@ -105,7 +105,7 @@ pub enum Event {
         /// The precondition that no longer holds.
         missing: String,
     },
-    /// Exclusions from earlier tasks were lifted since nothing else was left.
+    /// Exclusions were lifted since nothing else was left; ground actions that failed stay banned.
     Lifted,
     /// Actions are used although some of what they add holds already, since nothing else was left.
     Relaxed,

@@ -51,6 +51,10 @@ fn ending(account: &Account) -> (&'static str, Option<String>) {
     match &account.ending {
         Ending::Solved => ("solved", None),
         Ending::NoPlan(explanation) => ("no_plan", Some(format!("nothing left to try: {explanation}"))),
+        Ending::Circular => (
+            "circular",
+            Some("the plan that is left went as expected before, from this very state, and did not lead to the goal: something happens besides what the model says".to_owned()),
+        ),
         Ending::ProposalLimit(n) => ("proposal_limit", Some(format!("gave up after {}", count(*n, "proposal")))),
         Ending::GaveUp => ("gave_up", Some("planning gave up at the limit of expansions".to_owned())),
         Ending::OutOfTime => ("out_of_time", Some("out of time".to_owned())),
@@ -97,7 +101,7 @@ pub(crate) fn summary(name: &str, account: &Account, planning_ms: u128) -> Strin
         }
     }
     if account.lifted {
-        text += "  exclusions of earlier tasks were lifted, since nothing else was left\n";
+        text += "  exclusions were lifted, since nothing else was left\n";
     }
     if account.relaxed {
         text += "  actions were used although some of their effects held already, since nothing else was left\n";

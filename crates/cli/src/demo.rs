@@ -178,12 +178,7 @@ fn learn_all(demonstrations: &[Demonstration]) -> Result<Learned, Failure> {
             actions: demonstration.calls.iter().map(action).collect(),
         });
     }
-    let dataset = Dataset {
-        hierarchy: parser.hierarchy().clone(),
-        parse: parser.config().clone(),
-        predicates: parser.predicates(),
-        traces,
-    };
+    let dataset = Dataset::new(&parser, traces);
     learn_dataset(&dataset, &learn::Options::default()).map_err(Failure::bad_input)
 }
 

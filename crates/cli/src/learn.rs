@@ -1,12 +1,12 @@
 //! `typelift learn`.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
 use std::path::PathBuf;
 
 use serde::Serialize;
 use typelift::learn::{Actor, LearnError, Learned, Options, learn_dataset};
-use typelift::model::{ActionModel, ParseConfig, Symbol, Unexplained};
+use typelift::model::{ActionModel, ClusterKey, LiftedAtom, ParseConfig, Symbol, Unexplained};
 use typelift::world::{Dataset, ObjectTypes, read_dataset, read_hierarchy, write_file};
 
 use crate::exit::Exit;
@@ -102,7 +102,7 @@ impl Learn {
             }
         }
         out.flush()?;
-        self.warn(&learned);
+        self.warn(&dataset, &learned);
         Ok(Exit::Success)
     }
 
@@ -157,38 +157,49 @@ impl Learn {
         print_counts(out, dataset, learned)
     }
 
-    /// Warns of attributes that seem to flicker: most actions rest on a single observation.
-    fn warn(&self, learned: &Learned) {
+    /// Warns of names to ignore that were never met, and of attributes that seem to flicker: most actions rest on a
+    /// single observation, and there would be fewer without some predicate.
+    fn warn(&self, dataset: &Dataset, learned: &Learned) {
+        for rule in &dataset.unmatched_ignores {
+            anstream::eprintln!("{WARNING}warning{WARNING:#}: --ignore {rule}: there is no such attribute or relation");
+            if let Some(source) = dataset.sources.get(rule) {
+                anstream::eprintln!("{HINT}hint{HINT:#}: {rule} is a predicate; it comes from {source}");
+            }
+        }
         let (single, actions) = (learned.report.single_support, learned.report.generalized);
+        let Some((predicate, fewer, all)) = flickering(&learned.model) else { return };
         if self.individual || single * 2 <= actions {
             return;
         }
-        let suspects = flickering(&learned.model);
+        let source = dataset.sources.get(&predicate).unwrap_or(&predicate);
         anstream::eprintln!(
             "{WARNING}warning{WARNING:#}: {single} of {actions} actions rest on a single observation, so little was generalized"
         );
-        let names: Vec<&str> = suspects.iter().map(String::as_str).collect();
         anstream::eprintln!(
-            "{HINT}hint{HINT:#}: attributes that change by themselves keep alike actions apart; most effects mention {}: if it does not matter, --ignore it",
-            names.join(", ")
+            "{HINT}hint{HINT:#}: what changes by itself keeps alike actions apart; without {predicate} there would be {fewer} kinds of effect instead of {all}: if it flickers, give it hysteresis; if it does not matter, --ignore {source}"
         );
     }
 }
 
-/// The predicates that occur in the most effects of individual actions, at most three.
-fn flickering(model: &ActionModel) -> Vec<String> {
-    let mut counts: BTreeMap<&Symbol, usize> = BTreeMap::new();
-    for key in model.evidence.clusters.keys() {
-        let mut predicates: Vec<&Symbol> = key.adds.iter().chain(&key.deletes).map(|atom| &atom.predicate).collect();
-        predicates.sort_unstable();
-        predicates.dedup();
-        for predicate in predicates {
-            *counts.entry(predicate).or_default() += 1;
-        }
-    }
-    let mut sorted: Vec<(&Symbol, usize)> = counts.into_iter().collect();
-    sorted.sort_by(|a, b| b.1.cmp(&a.1).then_with(|| a.0.cmp(b.0)));
-    sorted.into_iter().take(3).map(|(predicate, _)| predicate.to_string()).collect()
+/// The predicate without which there would be the fewest kinds of effect, and how many those would be, and are; none if
+/// there would not be fewer. A kind is what could be generalized into one action, whatever the types.
+fn flickering(model: &ActionModel) -> Option<(Symbol, usize, usize)> {
+    let clusters: Vec<&ClusterKey> = model.evidence.clusters.keys().collect();
+    let kinds = |left_out: Option<&Symbol>| {
+        let kind = |key: &&ClusterKey| {
+            let names = |atoms: &[LiftedAtom]| {
+                let names = atoms.iter().map(|atom| atom.predicate.clone()).filter(|name| Some(name) != left_out);
+                names.collect::<Vec<_>>()
+            };
+            (key.action.clone(), names(&key.adds), names(&key.deletes))
+        };
+        clusters.iter().map(kind).collect::<BTreeSet<_>>().len()
+    };
+    let atoms = clusters.iter().flat_map(|key| key.adds.iter().chain(&key.deletes));
+    let predicates: BTreeSet<&Symbol> = atoms.map(|atom| &atom.predicate).collect();
+    let (fewest, predicate) = predicates.into_iter().map(|predicate| (kinds(Some(predicate)), predicate)).min()?;
+    let all = kinds(None);
+    (fewest < all).then(|| (predicate.clone(), fewest, all))
 }
 
 fn report(dataset: &Dataset, learned: &Learned) -> Report {

@@ -38,7 +38,8 @@ pub(crate) struct Limits {
     memory_limit: Option<u64>,
 }
 
-fn parse_duration(text: &str) -> Result<Duration, String> {
+/// Reads `90`, `500ms`, `30s`, `5m` or `1h`.
+pub(crate) fn parse_duration(text: &str) -> Result<Duration, String> {
     let split = text.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(text.len());
     let (number, unit) = text.split_at(split);
     let factor = match unit {

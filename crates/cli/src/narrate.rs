@@ -75,8 +75,11 @@ pub(crate) fn told(event: &Event) -> Option<String> {
         Event::Excluded { object, call: Some(call), .. } => {
             format!("       {WARNING}excluded{WARNING:#}: {object} from {call}")
         }
-        Event::Drifted { missing, .. } => format!("       the world changed by itself: {missing} no longer holds"),
-        Event::Lifted => "       nothing left to try: exclusions of earlier tasks are lifted".to_owned(),
+        Event::Drifted { missing, .. } => match missing.strip_prefix("not ") {
+            Some(atom) => format!("       the world changed by itself: {atom} holds now"),
+            None => format!("       the world changed by itself: {missing} no longer holds"),
+        },
+        Event::Lifted => "       nothing left to try: exclusions are lifted".to_owned(),
         Event::Relaxed => "       nothing left to try: effects may hold already".to_owned(),
     })
 }

@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::{BufRead, BufWriter, IsTerminal, Write};
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::time::Duration;
 
 use clap::ValueEnum;
 use typelift::agent::{Confirmation, Ending, Episode, Experience, Options, run};
@@ -18,7 +19,7 @@ use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::{read_model, read_run_task, task_name};
 use crate::goal_check::GoalCheck;
-use crate::limits::{Clock, Interrupt, Limits};
+use crate::limits::{Clock, Interrupt, Limits, parse_duration};
 use crate::narrate::Narrator;
 use crate::plan_text::numbered_steps;
 use crate::style::HEAD;
@@ -51,6 +52,9 @@ pub(crate) struct Run {
     /// Act in the environment that this command is: it speaks env/1 on its standard input and output
     #[arg(long, value_name = "COMMAND")]
     env: Option<String>,
+    /// Wait so long for an answer: hello (10s), reset (60s), observe (10s), act (300s), close (2s)
+    #[arg(long, value_name = "OP=TIME,…", value_delimiter = ',', value_parser = parse_timeout, requires = "env")]
+    env_timeout: Vec<(Operation, Duration)>,
     /// Add the types of this file to the model's
     #[arg(long, value_name = "FILE")]
     types: Option<PathBuf>,
@@ -83,6 +87,21 @@ pub(crate) struct Run {
     json: bool,
     #[command(flatten)]
     limits: Limits,
+}
+
+/// What an environment can be asked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Operation {
+    Hello,
+    Reset,
+    Observe,
+    Act,
+    Close,
+}
+
+fn parse_timeout(text: &str) -> Result<(Operation, Duration), String> {
+    let (operation, time) = text.split_once('=').ok_or("write for example hello=60s,act=10m")?;
+    Ok((Operation::from_str(operation, true)?, parse_duration(time)?))
 }
 
 /// Which plans are to be confirmed.
@@ -120,7 +139,7 @@ impl Run {
             if narrator.aloud {
                 anstream::eprintln!("{HEAD}{name}{HEAD:#}");
             }
-            narrator.planning = std::time::Duration::ZERO;
+            narrator.planning = Duration::ZERO;
             let budget = self.limits.with_default_expansions(EXPANSIONS).budget(clock, &interrupt);
             let mut episode =
                 Episode::new(Arc::clone(&model), task.goal.clone(), self.options(), experience.clone(), budget);

@@ -115,7 +115,11 @@ pub(crate) fn describe(action: &ActionSchema, model: &ActionModel, in_full: bool
     text
 }
 
+/// A labelled line; nothing if there are no words.
 fn row(text: &mut String, label: &str, words: &[String]) {
+    if words.is_empty() {
+        return;
+    }
     let body = wrapped(words.iter().map(String::as_str), 14, 80);
     text.push_str(&format!("  {DIM}{label:<12}{DIM:#}{body}\n"));
 }

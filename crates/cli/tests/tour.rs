@@ -1,12 +1,15 @@
-//! The documents' `console` blocks are run, and their output compared.
+//! The documents' `console` blocks are run, and their output compared; their quotations of files are compared too.
 //!
-//! In a block, a line `$ typelift …` is a command, the lines below it are what it prints. A line `…` stands for any lines. All blocks of a document are run in one folder that is empty at the start, but for
-//! a link to the project's `examples`. Times are not compared. With `UPDATE_DOCS=1` the documents are rewritten
-//! instead; outputs with a `…` are left as they are. A document that needs Python is skipped without it.
+//! In a block, a line `$ …` is a command for `sh`, the lines below it are what it prints. A line `…` stands for any
+//! lines. All blocks of a document are run in one folder that is empty at the start, but for a link to the project's
+//! `examples`. Times are not compared. A code block after `<!-- path -->` is that file; after `<!-- path [name] -->` it is
+//! what stands there between the lines `# [name]` and `# [/name]`. With `UPDATE_DOCS=1` the documents are rewritten
+//! instead; outputs with a `…` are left as they are. Documents that need Python are skipped without it.
+#![cfg(unix)]
 
 use std::fmt::Write;
 use std::fs;
-use std::io::Read;
+use std::io::{Read, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
@@ -14,46 +17,27 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// Runs a command line of the form `typelift …`, without a shell: words in single quotes hold together, and `*` in the
-/// last part of a path is expanded.
+/// Runs a command; whoever is asked for something answers yes.
 fn run(command: &str, folder: &Path) -> String {
-    let mut words: Vec<String> = Vec::new();
-    for (i, part) in command.split('\'').enumerate() {
-        if i % 2 == 1 {
-            words.push(part.to_owned());
-            continue;
-        }
-        for word in part.split_whitespace() {
-            match word.split_once('*') {
-                Some((before, after)) => words.extend(matching(folder, before, after)),
-                None => words.push(word.to_owned()),
-            }
-        }
-    }
-    assert_eq!(words.first().map(String::as_str), Some("typelift"), "{command}");
+    let program = Path::new(env!("CARGO_BIN_EXE_typelift"));
+    let path = std::env::var("PATH").unwrap_or_default();
     // One pipe for both, so that lines come in the order in which a person sees them.
     let (mut reader, writer) = std::io::pipe().expect("a pipe");
-    let mut program = Command::new(env!("CARGO_BIN_EXE_typelift"));
-    program.args(&words[1..]).current_dir(folder).stdin(Stdio::null());
-    let mut child =
-        program.stdout(writer.try_clone().expect("a second end")).stderr(writer).spawn().expect("the program starts");
-    drop(program);
+    let mut shell = Command::new("sh");
+    shell
+        .args(["-c", command])
+        .current_dir(folder)
+        .env("PATH", format!("{}:{path}", program.parent().expect("its folder").display()))
+        .stdin(Stdio::piped())
+        .stdout(writer.try_clone().expect("a second end"))
+        .stderr(writer);
+    let mut child = shell.spawn().expect("the program starts");
+    drop(shell);
+    child.stdin.take().expect("piped").write_all(b"y\n").ok();
     let mut text = String::new();
     reader.read_to_string(&mut text).expect("UTF-8");
     child.wait().expect("it ends");
     text
-}
-
-fn matching(folder: &Path, before: &str, after: &str) -> Vec<String> {
-    let (directory, start) = before.rsplit_once('/').unwrap_or((".", before));
-    let mut names: Vec<String> = fs::read_dir(folder.join(directory))
-        .expect("the folder")
-        .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
-        .filter(|name| name.starts_with(start) && name.ends_with(after))
-        .map(|name| format!("{directory}/{name}"))
-        .collect();
-    names.sort();
-    names
 }
 
 /// The text with every `12 ms` and `0.3 s` made alike.
@@ -85,30 +69,49 @@ fn agrees(expected: &str, found: &str) -> bool {
     open || rest.is_empty()
 }
 
-/// Runs the blocks of a document.
+/// The file, or the part of it, that a line `<!-- path [name] -->` announces.
+fn quoted(line: &str) -> Option<String> {
+    let inner = line.strip_prefix("<!-- ")?.strip_suffix(" -->")?;
+    let (path, name) = inner.split_once(' ').map_or((inner, None), |(path, name)| (path, Some(name)));
+    let text = fs::read_to_string(root().join(path)).ok()?;
+    let Some(name) = name else { return Some(text) };
+    let name = name.trim_matches(['[', ']']);
+    let (_, rest) = text.split_once(&format!("# [{name}]\n")).expect("the start of the quotation");
+    Some(rest.split_once(&format!("# [/{name}]\n")).expect("its end").0.to_owned())
+}
+
+/// Runs the blocks of a document and compares its quotations.
 fn tour(document: &str) {
     let path = root().join(document);
     let text = fs::read_to_string(&path).expect("the document");
     let folder = tempfile::tempdir().expect("a folder");
-    #[cfg(unix)]
-    {
-        let examples = root().join("examples").canonicalize().expect("the examples");
-        std::os::unix::fs::symlink(examples, folder.path().join("examples")).expect("a link");
-    }
+    let examples = root().join("examples").canonicalize().expect("the examples");
+    std::os::unix::fs::symlink(examples, folder.path().join("examples")).expect("a link");
     let update = std::env::var_os("UPDATE_DOCS").is_some();
-    let (mut written, mut in_block, mut commands) = (String::new(), false, 0);
+    let (mut written, mut in_console, mut commands) = (String::new(), false, 0);
     let mut lines = text.lines().peekable();
     while let Some(line) = lines.next() {
         let _ = writeln!(written, "{line}");
-        if line.starts_with("```") {
-            in_block = !in_block && line == "```console";
+        if let Some(quotation) = quoted(line) {
+            let _ = writeln!(written, "{}", lines.next().expect("a code block after a quotation's mark"));
+            let mut shown = String::new();
+            while let Some(next) = lines.next_if(|next| *next != "```") {
+                let _ = writeln!(shown, "{next}");
+            }
+            assert!(update || shown == quotation, "{document}: not what stands in the file: {line}\n{quotation}");
+            written.push_str(&quotation);
+            continue;
         }
-        let Some(command) = line.strip_prefix("$ ").filter(|_| in_block) else { continue };
+        if line.starts_with("```") {
+            in_console = !in_console && line == "```console";
+        }
+        let Some(command) = line.strip_prefix("$ ").filter(|_| in_console) else { continue };
         let mut expected = String::new();
-        while let Some(next) = lines.next_if(|next| !next.starts_with("$ ") && !next.starts_with("```")) {
+        while let Some(next) = lines.next_if(|next| !next.starts_with("$ ") && *next != "```") {
             let _ = writeln!(expected, "{next}");
         }
-        let found = run(command, folder.path());
+        let blank_line = if expected.ends_with("\n\n") { "\n" } else { "" };
+        let found = run(command, folder.path()) + blank_line;
         commands += 1;
         if update && !expected.contains("…\n") {
             written.push_str(&found);
@@ -139,6 +142,13 @@ fn readme() {
 #[test]
 fn reproduction() {
     tour("docs/reproduction.md");
+}
+
+#[test]
+fn your_robot() {
+    if python_is_here() {
+        tour("docs/your-robot.md");
+    }
 }
 
 #[test]

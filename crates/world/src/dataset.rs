@@ -1,6 +1,10 @@
 //! Demonstrations as sequences of states and actions.
 
+use std::collections::BTreeMap;
+
 use typelift_model::{GroundAtom, GroundCall, Hierarchy, ParseConfig, State, Symbol, Witness};
+
+use crate::Parser;
 
 /// One action of a trace.
 #[derive(Debug, Clone, PartialEq)]
@@ -73,12 +77,30 @@ pub struct Dataset {
     /// How snapshots were read.
     pub parse: ParseConfig,
     /// Every predicate met, with its number of arguments.
-    pub predicates: std::collections::BTreeMap<Symbol, usize>,
+    pub predicates: BTreeMap<Symbol, usize>,
+    /// The attribute or relation that each predicate comes from.
+    pub sources: BTreeMap<Symbol, Symbol>,
+    /// What was to be ignored and was never met.
+    pub unmatched_ignores: Vec<Symbol>,
     /// The demonstrations.
     pub traces: Vec<Trace>,
 }
 
 impl Dataset {
+    /// The dataset of traces that a parser read.
+    pub fn new(parser: &Parser, traces: Vec<Trace>) -> Self {
+        let predicates = parser.predicates();
+        let source = |predicate: &Symbol| Some((predicate.clone(), parser.source(predicate.as_str())?.clone()));
+        Self {
+            hierarchy: parser.hierarchy().clone(),
+            parse: parser.config().clone(),
+            sources: predicates.keys().filter_map(source).collect(),
+            unmatched_ignores: parser.unmatched_ignores().cloned().collect(),
+            predicates,
+            traces,
+        }
+    }
+
     /// All transitions of all traces.
     pub fn transitions(&self) -> impl Iterator<Item = Transition<'_>> {
         self.traces.iter().flat_map(Trace::transitions)

@@ -64,12 +64,7 @@ pub fn read_dataset(
     if traces.is_empty() {
         return Err(FileError::new(Path::new(""), "no traces"));
     }
-    Ok(Dataset {
-        hierarchy: parser.hierarchy().clone(),
-        parse: parser.config().clone(),
-        predicates: parser.predicates(),
-        traces,
-    })
+    Ok(Dataset::new(&parser, traces))
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@
 //! Parsing is a function of the snapshot, the hierarchy and the configuration. A [`Parser`] also remembers what each
 //! predicate name came from, and refuses a second source of one name.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use thiserror::Error;
 use typelift_model::{GroundAtom, Hierarchy, ParseConfig, State, Symbol, TypeId, check_name};
@@ -119,12 +119,14 @@ pub struct Parser {
     hierarchy: Hierarchy,
     config: ParseConfig,
     sources: BTreeMap<Symbol, PredicateSource>,
+    /// Rules of `config.ignore` that matched something.
+    matched: BTreeSet<Symbol>,
 }
 
 impl Parser {
     /// A parser that has seen nothing yet.
     pub fn new(hierarchy: Hierarchy, config: ParseConfig) -> Self {
-        Self { hierarchy, config, sources: BTreeMap::new() }
+        Self { hierarchy, config, sources: BTreeMap::new(), matched: BTreeSet::new() }
     }
 
     /// The hierarchy that its states refer to.
@@ -140,6 +142,16 @@ impl Parser {
     /// Every predicate met so far, with its number of arguments.
     pub fn predicates(&self) -> BTreeMap<Symbol, usize> {
         self.sources.iter().map(|(name, source)| (name.clone(), source.arity)).collect()
+    }
+
+    /// The attribute or relation that a predicate comes from; of a predicate of symbolic states, itself.
+    pub fn source(&self, predicate: &str) -> Option<&Symbol> {
+        self.sources.get(predicate).map(|source| &source.name)
+    }
+
+    /// What was to be ignored and was never met.
+    pub fn unmatched_ignores(&self) -> impl Iterator<Item = &Symbol> {
+        self.config.ignore.difference(&self.matched)
     }
 
     /// The state that a scene shows.
@@ -205,13 +217,18 @@ impl Parser {
         }
     }
 
-    fn ignored(&self, ty: TypeId, name: &Symbol) -> bool {
-        self.config.ignore.iter().any(|rule| match rule.as_str().split_once('.') {
-            None => rule == name,
+    fn ignored(&mut self, ty: TypeId, name: &Symbol) -> bool {
+        let rule = self.config.ignore.iter().find(|rule| match rule.as_str().split_once('.') {
+            None => *rule == name,
             Some((type_name, attribute)) => {
                 *name == attribute && self.hierarchy.id(type_name).is_some_and(|t| self.hierarchy.is_a(ty, t))
             }
-        })
+        });
+        let Some(rule) = rule else { return false };
+        if !self.matched.contains(rule) {
+            self.matched.insert(rule.clone());
+        }
+        true
     }
 
     fn parse_attribute(
