@@ -105,15 +105,18 @@ fn nothing_but_the_blender_blends() {
 }
 
 #[test]
-fn without_imagination_one_failure_is_the_end() {
+fn without_imagination_no_fault_is_worked_around() {
     for task in faults() {
         for restart in [true, false] {
             for seed in SEEDS {
                 let options = Options { restart, ..Options::default() };
                 let Ran { account, .. } = ran(&mut Watched::new(), &task, seed, &options, Experience::new());
-                assert_eq!((account.proposals, account.solved()), (1, false), "{}, seed {seed}", task.name);
-                assert_eq!(account.failures.len(), 1, "{}", task.name);
-                assert!(!restart || has_reason(&account.ending), "{}: {:?}", task.name, account.ending);
+                let context = format!("{}, seed {seed}, restart {restart}", task.name);
+                assert!(!account.solved() && !account.failures.is_empty(), "{context}");
+                if restart {
+                    assert_eq!((account.proposals, account.failures.len()), (1, 1), "{context}");
+                    assert!(has_reason(&account.ending), "{context}: {:?}", account.ending);
+                }
             }
         }
     }
@@ -654,4 +657,25 @@ fn the_number_of_proposals_is_limited() {
     let mut it = ByHand::cutting(Options { max_proposals: 1, retries: Some(0), ..Options::default() });
     let refused = it.refused();
     assert_eq!(it.done(refused).ending, Ending::ProposalLimit(1));
+}
+
+#[test]
+fn a_changed_mind_about_the_ending_is_not_recorded() {
+    let mut it = ByHand::cutting(Options::default());
+    let after = it.cut.clone();
+    assert!(it.done(Input::Observation(after)).solved());
+    let (episode, account) = (&mut it.episode, Ending::Solved);
+    let Ok(Command::Done(again)) = episode.step(Input::Stop, &mut ()) else { panic!("it is over") };
+    assert_eq!(again.ending, account, "stopping what is solved does not unsolve it");
+}
+
+#[test]
+fn a_relaxed_step_that_works_is_no_failure() {
+    for name in ["broken_toaster_bread", "broken_cutboard_toaster_bread"] {
+        for seed in SEEDS {
+            let Ran { account, .. } = ran_alone(name, seed, &going_on());
+            assert!(account.solved() && account.relaxed);
+            assert!(account.failures.iter().all(|failure| failure.call.name == *"USE"), "{:?}", failed_calls(&account));
+        }
+    }
 }

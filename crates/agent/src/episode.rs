@@ -46,6 +46,8 @@ pub struct Episode {
     attempts: u32,
     /// Plans that were begun, with the states they were begun in.
     begun: Vec<(State, Plan)>,
+    /// The current plan was made without strictness, although the options ask for it.
+    relaxed: bool,
     /// Only bans count any more, not exclusions: nothing else was left.
     bans_only: bool,
     account: Account,
@@ -74,6 +76,7 @@ impl Episode {
             next_step: 0,
             attempts: 0,
             begun: Vec::new(),
+            relaxed: false,
             bans_only: false,
             account: Account {
                 ending: Ending::Stopped,
@@ -99,15 +102,14 @@ impl Episode {
         &self.planned_with
     }
 
-    /// Takes one input. An input that does not fit the last command is answered by repeating that command's kind: an
-    /// observation where approval was asked for updates nothing.
+    /// Takes one input. One that does not fit the last command changes nothing and is answered by that command again.
     ///
     /// # Errors
     /// [`ProposeError::Invalid`] if the planner errs.
     pub fn step(&mut self, input: Input, observer: &mut dyn Observer) -> Result<Command, ProposeError> {
         match (&self.phase, input) {
-            (_, Input::Stop) => Ok(self.end(Ending::Stopped, observer)),
             (Phase::Over, _) => Ok(Command::Done(Box::new(self.account.clone()))),
+            (_, Input::Stop) => Ok(self.end(Ending::Stopped, observer)),
             (Phase::New, _) => {
                 self.phase = Phase::AwaitingState;
                 Ok(Command::Reset)
@@ -127,10 +129,11 @@ impl Episode {
             (Phase::AwaitingResult, Input::Refused { reason, state }) => {
                 self.judge(state, Some(StepResult::Refused), Some(reason), observer)
             }
-            (Phase::AwaitingResult, _) => {
+            (Phase::AwaitingResult, Input::TimedOut) => {
                 self.phase = Phase::AwaitingLateState;
                 Ok(Command::Observe)
             }
+            (Phase::AwaitingResult, _) => Ok(Command::Act(self.plan.steps[self.next_step].call.clone())),
             (Phase::AwaitingLateState, Input::Observation(state) | Input::Refused { state, .. }) => {
                 self.judge(state, Some(StepResult::TimedOut), None, observer)
             }
@@ -148,22 +151,30 @@ impl Episode {
     /// Plans from the current state.
     fn propose(&mut self, observer: &mut dyn Observer) -> Result<Command, ProposeError> {
         if self.state.satisfies(&self.goal) {
-            self.account.plan = Some(Plan::default());
+            // It held from the start, or came about by a step that otherwise failed.
+            let taken = self.plan.len().min(if self.account.proposals == 0 { 0 } else { self.next_step + 1 });
+            self.account.plan = Some(Plan { steps: self.plan.steps[..taken].to_vec() });
             return Ok(self.end(Ending::Solved, observer));
         }
         if self.account.proposals >= self.options.max_proposals {
             return Ok(self.end(Ending::ProposalLimit(self.options.max_proposals), observer));
         }
-        let proposal = match self.plan_with_last_resorts(observer) {
+        let mut proposal = match self.plan_with_last_resorts(observer) {
             Ok(proposal) => proposal,
             Err(ProposeError::Cut(cut)) => return Ok(self.end(cut_ending(cut), observer)),
             Err(error) => return Err(error),
         };
+        // A plan that did not lead to the goal from this very state, though no step of it failed, is not begun again.
+        let is_known = |outcome: &Outcome| {
+            let Outcome::Solved(plan) = outcome else { return false };
+            self.begun.iter().any(|(state, begun)| begun == plan && *state == self.state)
+        };
+        let circular = is_known(&proposal.outcome);
+        while is_known(&proposal.outcome) {
+            proposal.outcome = proposal.next_plan(&self.budget)?;
+        }
         let ending = match &proposal.outcome {
-            // The same plan from the same state did not lead to the goal, though no step of it failed.
-            Outcome::Solved(plan) if self.begun.iter().any(|(state, begun)| begun == plan && *state == self.state) => {
-                Ending::Circular
-            }
+            Outcome::Unsolvable | Outcome::NoMorePlans | Outcome::GaveUp if circular => Ending::Circular,
             Outcome::Solved(plan) => {
                 self.begun.push((self.state.clone(), plan.clone()));
                 self.plan = plan.clone();
@@ -186,10 +197,11 @@ impl Episode {
     }
 
     /// Plans. Where there is no plan, it tries without the exclusions of earlier tasks; and an episode that goes on
-    /// from where it is then tries without any exclusion, and at last without strictness. Ground actions that failed
+    /// from where it is then tries without strictness, and at last without any exclusion. Ground actions that failed
     /// stay banned throughout.
     fn plan_with_last_resorts(&mut self, observer: &mut dyn Observer) -> Result<Proposal, ProposeError> {
         let none = |proposal: &Proposal| matches!(proposal.outcome, Outcome::Unsolvable | Outcome::GaveUp);
+        self.relaxed = false;
         let options = self.options.clone();
         let mut proposal = self.plan_once(&options, observer)?;
         if none(&proposal) && self.inherited.exclusions().next().is_some() {
@@ -205,6 +217,15 @@ impl Episode {
         if !none(&proposal) || options.restart || self.account.failures.is_empty() {
             return Ok(proposal);
         }
+        if options.strict {
+            let plain = self.plan_once(&Options { strict: false, ..options.clone() }, observer)?;
+            if !none(&plain) {
+                self.relaxed = true;
+                self.account.relaxed = true;
+                observer.event(&Event::Relaxed);
+                return Ok(plain);
+            }
+        }
         if !self.bans_only && self.experience.exclusions().next().is_some() {
             self.bans_only = true;
             let without = self.plan_once(&options, observer)?;
@@ -214,14 +235,6 @@ impl Episode {
                 return Ok(without);
             }
             self.bans_only = false;
-        }
-        if options.strict {
-            let plain = self.plan_once(&Options { strict: false, ..options }, observer)?;
-            if !none(&plain) {
-                self.account.relaxed = true;
-                observer.event(&Event::Relaxed);
-                return Ok(plain);
-            }
         }
         Ok(proposal)
     }
@@ -293,7 +306,9 @@ impl Episode {
         self.account.actions += 1;
         let step = &self.plan.steps[self.next_step];
         let given = self.planned_with.action(step.action.as_str()).is_some_and(|a| a.provenance == Provenance::Given);
-        let seen = self.expected().map_or(StepResult::Otherwise, |e| compare(&e, &self.state, &after, !given));
+        // A relaxed plan knows that not every effect will be a change.
+        let strict_effects = !given && !self.relaxed;
+        let seen = self.expected().map_or(StepResult::Otherwise, |e| compare(&e, &self.state, &after, strict_effects));
         let result = match excuse {
             Some(excuse) if seen == StepResult::NothingChanged || excuse == StepResult::TimedOut => match seen {
                 StepResult::AsExpected => seen,

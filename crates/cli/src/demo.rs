@@ -34,7 +34,7 @@ const SHOWN: [(&str, &str); 6] = [
 #[command(after_help = "Example:\n  typelift demo --seed 3")]
 pub(crate) struct Demo {
     /// The seed of the rooms
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true)]
     seed: u64,
 }
 
@@ -139,7 +139,11 @@ struct Lines(Vec<String>);
 
 impl Observer for Lines {
     fn event(&mut self, event: &Event) {
-        self.0.extend(told(event));
+        // A reason gets a line of its own: with it, a line would be longer than 80 columns.
+        let mut event = event.clone();
+        let reason = if let Event::Stepped { reason, .. } = &mut event { reason.take() } else { None };
+        self.0.extend(told(&event));
+        self.0.extend(reason.map(|reason| format!("       {DIM}{reason}{DIM:#}")));
     }
 }
 
@@ -207,9 +211,7 @@ fn print_learned(out: &mut impl Write, learned: &Learned, took: u128) -> Result<
     }
     if let Some(action) = model.action("USE-cutboard-food") {
         writeln!(out, "\n{HEAD}One of them{HEAD:#}, in full:")?;
-        for line in describe(action, model, false).lines() {
-            writeln!(out, "  {line}")?;
-        }
+        write!(out, "{}", describe(action, model, false))?;
     }
     Ok(())
 }

@@ -4,12 +4,15 @@ use std::fmt::Display;
 use std::io;
 
 use typelift::agent::{ProposeError, RunError};
-use typelift::model::{ModelFileError, NameCollision, Stop};
+use typelift::model::{ModelFileError, NameCollision, Stop, Symbol};
 use typelift::plan::Cut;
-use typelift::world::{FileError, WorldError};
+use typelift::world::{FileError, WorldError, nearest};
 
 use crate::exit::Exit;
 use crate::style::{ERROR, HINT};
+
+/// What to do about a model that contradicts itself.
+pub(crate) const NOT_AS_WRITTEN: &str = "It is not as `typelift learn` wrote it: learn the model again.";
 
 /// Why a command could not do its work.
 #[derive(Debug)]
@@ -56,14 +59,14 @@ impl From<FileError> for Failure {
 impl From<io::Error> for Failure {
     fn from(error: io::Error) -> Self {
         let exit = if error.kind() == io::ErrorKind::BrokenPipe { Exit::Success } else { Exit::BadInput };
-        Self::new(exit, error)
+        Self::new(exit, format!("cannot write to standard output: {error}"))
     }
 }
 
 impl From<NameCollision> for Failure {
     fn from(error: NameCollision) -> Self {
         Self::bad_input(error)
-            .with_hint("PDDL does not tell upper from lower case: rename one of the two, or ignore it")
+            .with_hint("PDDL does not tell upper from lower case: rename one of the two, or --ignore it.")
     }
 }
 
@@ -72,9 +75,13 @@ impl From<ModelFileError> for Failure {
         match error {
             ModelFileError::Collision(collision) => collision.into(),
             ModelFileError::Version { .. } => {
-                Self::bad_input(error).with_hint("learn the model again, or use the typelift that wrote it")
+                Self::bad_input(error).with_hint("Learn the model again, or use the typelift that wrote it.")
             }
-            _ => Self::bad_input(error),
+            ModelFileError::NotAModel { .. } => {
+                Self::bad_input(error).with_hint("The model comes first; `typelift learn` writes one.")
+            }
+            ModelFileError::NoFormat => Self::bad_input(error).with_hint("`typelift learn` writes one."),
+            _ => Self::bad_input(error).with_hint(NOT_AS_WRITTEN),
         }
     }
 }
@@ -99,7 +106,7 @@ impl From<RunError> for Failure {
         match error {
             RunError::World(error) => error.into(),
             RunError::State(error) => Self::new(Exit::Environment, format!("the environment's state cannot be read: {error}"))
-                .with_hint("a type that the model does not know can be added with --types; an attribute can be ignored when learning, with --ignore"),
+                .with_hint("A type that the model does not know can be added with --types; an attribute can be ignored when learning, with --ignore."),
             RunError::Propose(error) => error.into(),
         }
     }
@@ -120,5 +127,17 @@ impl Failure {
     pub(crate) fn in_file(mut self, path: &std::path::Path) -> Self {
         self.message = format!("{}: {}", path.display(), self.message);
         self
+    }
+}
+
+/// The hint for a name that is none of these: the one that may have been meant, or else all of them.
+pub(crate) fn or_one_of(name: &str, names: &[Symbol]) -> String {
+    match nearest(name, names) {
+        Some(near) => format!("Did you mean `{near}`?"),
+        None if names.is_empty() => "There are none.".to_owned(),
+        None => {
+            let names: Vec<&str> = names.iter().map(Symbol::as_str).collect();
+            format!("There are {}.", names.join(", "))
+        }
     }
 }

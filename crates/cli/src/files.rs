@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use typelift::model::{ActionModel, Task};
+use typelift::model::{ActionModel, ModelFileError, Task};
 use typelift::world::{FileError, Parser, TaskFile, read_task, read_text, read_types};
 
 use crate::exit::Exit;
-use crate::failure::Failure;
+use crate::failure::{Failure, NOT_AS_WRITTEN};
 
 /// Reads a model file, and adds the types of another file to it.
 pub(crate) fn read_model(path: &Path, types: Option<&PathBuf>) -> Result<ActionModel, Failure> {
@@ -17,7 +17,16 @@ pub(crate) fn read_model(path: &Path, types: Option<&PathBuf>) -> Result<ActionM
             format!("{}: this is a PDDL file; typelift reads learned models (JSON) here so far", path.display()),
         ));
     }
-    let mut model = ActionModel::from_json(&text).map_err(|error| Failure::from(error).in_file(path))?;
+    if text.trim().is_empty() {
+        return Err(FileError::new(path, "the file is empty").into());
+    }
+    let mut model = ActionModel::from_json(&text).map_err(|error| match error {
+        ModelFileError::Json { line, column, message } => {
+            let error = FileError::at_line(path, line, message).with_column(column);
+            error.with_hint(NOT_AS_WRITTEN.to_owned()).into()
+        }
+        error => Failure::from(error).in_file(path),
+    })?;
     if let Some(types) = types {
         model.hierarchy = read_types(types)?.extend(&model.hierarchy)?;
     }

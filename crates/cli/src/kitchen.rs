@@ -4,7 +4,7 @@ use std::fs::create_dir_all;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use typelift::model::ParseConfig;
+use typelift::model::{ParseConfig, Symbol};
 use typelift::world::{
     FileError, Parser, Reset, Scene, TaskFile, TraceAction, TraceHeader, TraceItem, TraceReader, World, write_file,
     write_task, write_trace,
@@ -15,11 +15,12 @@ use typelift_kitchen::{
 };
 
 use crate::exit::Exit;
-use crate::failure::Failure;
+use crate::failure::{Failure, or_one_of};
 use crate::style::{BAD, GOOD, count};
 
 /// The built-in kitchen simulator
 #[derive(Debug, clap::Args)]
+#[command(after_help = "Example:\n  typelift kitchen export K\n\n`typelift kitchen COMMAND --help` tells more.")]
 pub(crate) struct Kitchen {
     #[command(subcommand)]
     command: Command,
@@ -33,7 +34,7 @@ enum Command {
         /// The folder to write to; made if it is not there
         folder: PathBuf,
         /// The seed of the rooms
-        #[arg(long, value_name = "N", default_value_t = 0)]
+        #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true)]
         seed: u64,
     },
     /// Be the kitchen for somebody else: speak env/1 on standard input and output
@@ -41,8 +42,9 @@ enum Command {
     Serve,
     /// Hold the simulator against recorded traces
     #[command(after_help = "Example:\n  typelift kitchen replay K/demos/*.jsonl\n\n\
-        Sets the simulator to a trace's first state, performs its actions, and compares the\n\
-        atoms after each. Exit codes: 0 no difference, 12 a difference, 31 bad input.")]
+        Sets the simulator to a trace's first state, performs its actions, and compares\n\
+        the atoms after each. Exit codes: 0 no difference, 12 a difference,\n\
+        31 bad input.")]
     Replay {
         /// Traces that begin with a snapshot of a kitchen
         #[arg(required = true, value_name = "TRACE")]
@@ -54,7 +56,7 @@ enum Command {
         /// A task's or a fault's name; the default room if left out
         task: Option<String>,
         /// The seed of the room
-        #[arg(long, value_name = "N", default_value_t = 0)]
+        #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true)]
         seed: u64,
     },
 }
@@ -76,7 +78,7 @@ impl Kitchen {
 fn export(folder: &Path, seed: u64, quiet: bool) -> Result<Exit, Failure> {
     let [demos, task_folder, fault_folder] = ["demos", "tasks", "faults"].map(|name| folder.join(name));
     for path in [&demos, &task_folder, &fault_folder] {
-        create_dir_all(path).map_err(|error| FileError::from_io(path, &error))?;
+        create_dir_all(path).map_err(|error| FileError::from_write(path, &error))?;
     }
     write_file(&folder.join("types.pddl"), types_pddl().as_bytes())?;
     let demonstrations = demonstrations(seed);
@@ -154,7 +156,7 @@ fn replay_one(path: &Path) -> Result<(usize, Option<Difference>), Failure> {
     let mut scenes = scenes.into_iter();
     let Some(Scene::Snapshot(first)) = scenes.next() else {
         return Err(Failure::bad_input(format!("{}: the first state is not a snapshot", path.display())).with_hint(
-            "a kitchen cannot be built from atoms alone: they do not say in which order things are stacked",
+            "A kitchen cannot be built from atoms alone: they do not say in which order things are stacked.",
         ));
     };
     let report =
@@ -186,9 +188,8 @@ fn draw_room(name: Option<&str>, seed: u64) -> Result<Exit, Failure> {
         None => None,
         Some(name) => {
             let task = all.iter().find(|task| task.name == name).ok_or_else(|| {
-                let names: Vec<&str> = all.iter().map(|task| task.name.as_str()).collect();
-                Failure::bad_input(format!("there is no task `{name}`"))
-                    .with_hint(format!("tasks: {}", names.join(" ")))
+                let names: Vec<Symbol> = all.iter().map(|task| Symbol::from(task.name.as_str())).collect();
+                Failure::bad_input(format!("there is no task `{name}`")).with_hint(or_one_of(name, &names))
             })?;
             Some(task.scenario.clone())
         }

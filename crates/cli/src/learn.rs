@@ -10,7 +10,7 @@ use typelift::model::{ActionModel, ClusterKey, LiftedAtom, ParseConfig, Symbol, 
 use typelift::world::{Dataset, ObjectTypes, read_dataset, read_hierarchy, write_file};
 
 use crate::exit::Exit;
-use crate::failure::Failure;
+use crate::failure::{Failure, or_one_of};
 use crate::style::{HEAD, HINT, WARNING, count, wrapped};
 
 /// Learn actions from demonstrations
@@ -18,10 +18,10 @@ use crate::style::{HEAD, HINT, WARNING, count, wrapped};
 #[command(after_help = "Examples:
   typelift learn demos/*.jsonl --types types.pddl -o model.json
   typelift learn demos --types types.pddl --ignore battery,robot.pose --dry-run
-  typelift learn *.trajectory --types domain.pddl --problems problems -o model.json
+  typelift learn *.trajectory --types domain.pddl --problems P -o model.json
 
-A trace is one demonstration: JSON Lines (trace/1), or a PDDL trajectory. Of a folder,
-every .jsonl and .trajectory file is read.")]
+A trace is one demonstration: JSON Lines (trace/1), or a PDDL trajectory. Of a
+folder, every .jsonl and .trajectory file is read.")]
 pub(crate) struct Learn {
     /// Traces, trajectories, or folders of them
     #[arg(required = true, value_name = "TRACE")]
@@ -85,8 +85,15 @@ impl Learn {
         };
         let learned = learn_dataset(&dataset, &Options { individual: self.individual, actor }).map_err(|error| {
             let LearnError::UnknownType(name) = &error;
-            Failure::bad_input(format!("--actor {name}: {error}")).with_hint("name a type of the hierarchy, or `none`")
+            let types: Vec<Symbol> = dataset.hierarchy.types().map(|t| dataset.hierarchy.name(t).clone()).collect();
+            let hint = format!("{} Or say `none`.", or_one_of(name.as_str(), &types));
+            Failure::bad_input(format!("--actor {name}: {error}")).with_hint(hint)
         })?;
+        // First, so that the model is there also if nobody reads what is printed.
+        let output = self.output.as_ref().filter(|_| !self.dry_run);
+        if let Some(path) = output {
+            write_file(path, learned.model.to_json()?.as_bytes())?;
+        }
         let mut out = anstream::stdout().lock();
         if self.json {
             writeln!(out, "{}", serde_json::to_string_pretty(&report(&dataset, &learned)).unwrap_or_default())?;
@@ -95,14 +102,13 @@ impl Learn {
         } else {
             print_counts(&mut out, &dataset, &learned)?;
         }
-        if let (Some(path), false) = (&self.output, self.dry_run) {
-            write_file(path, learned.model.to_json()?.as_bytes())?;
-            if !quiet {
+        out.flush()?;
+        if !quiet {
+            if let Some(path) = output {
                 anstream::eprintln!("wrote {}", path.display());
             }
+            self.warn(&dataset, &learned);
         }
-        out.flush()?;
-        self.warn(&dataset, &learned);
         Ok(Exit::Success)
     }
 
@@ -166,6 +172,13 @@ impl Learn {
                 anstream::eprintln!("{HINT}hint{HINT:#}: {rule} is a predicate; it comes from {source}");
             }
         }
+        if learned.report.individual == 0 {
+            let why = match learned.report.transitions {
+                0 => "there is no action in these traces",
+                _ => "no action in these traces changed anything that can be learned",
+            };
+            anstream::eprintln!("{WARNING}warning{WARNING:#}: nothing was learned: {why}");
+        }
         let (single, actions) = (learned.report.single_support, learned.report.generalized);
         let Some((predicate, fewer, all)) = flickering(&learned.model) else { return };
         if self.individual || single * 2 <= actions {
@@ -222,7 +235,7 @@ fn print_counts(out: &mut impl Write, dataset: &Dataset, learned: &Learned) -> R
     writeln!(out, "{}, from {traces}", count(report.transitions, "transition"))?;
     writeln!(out, "{}", count(report.individual as u64, "individual action"))?;
     let generalized = count(report.generalized as u64, "generalized action");
-    if report.generalized != report.individual || report.individual == 0 {
+    if report.generalized != report.individual {
         let names = learned.model.actions.iter().map(|action| action.name.as_str());
         writeln!(out, "{generalized}:\n  {}", wrapped(names, 2, 80))?;
     }

@@ -28,13 +28,13 @@ impl Clock {
 #[command(next_help_heading = "Limits")]
 pub(crate) struct Limits {
     /// Stop after this time, reading included: seconds, or 500ms, 30s, 5m
-    #[arg(long, value_name = "TIME", value_parser = parse_duration)]
+    #[arg(long, value_name = "TIME", value_parser = parse_duration, allow_negative_numbers = true)]
     time_limit: Option<Duration>,
     /// Expand at most this many nodes in one search
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     max_expansions: Option<u64>,
     /// Hold at most this many megabytes in grounding and search, by typelift's own count
-    #[arg(long, value_name = "MB")]
+    #[arg(long, value_name = "MB", allow_negative_numbers = true)]
     memory_limit: Option<u64>,
 }
 
@@ -47,9 +47,10 @@ pub(crate) fn parse_duration(text: &str) -> Result<Duration, String> {
         "ms" => 1e-3,
         "m" | "min" => 60.0,
         "h" => 3600.0,
+        _ if number.is_empty() => return Err("write a number of seconds, or 500ms, 30s, 5m or 1h".to_owned()),
         _ => return Err(format!("unknown unit `{unit}`; write 500ms, 30s, 5m or 1h")),
     };
-    let number: f64 = number.parse().map_err(|_| "write a number of seconds, or 500ms, 30s, 5m".to_owned())?;
+    let number: f64 = number.parse().map_err(|_| "write a number of seconds, or 500ms, 30s, 5m or 1h".to_owned())?;
     Duration::try_from_secs_f64(number * factor).map_err(|e| e.to_string())
 }
 

@@ -29,7 +29,7 @@ use limits::Clock;
 
 /// Show a robot a few tasks; it plans tasks it was never shown.
 #[derive(Debug, Parser)]
-#[command(name = "typelift", version, max_term_width = 100, disable_help_subcommand = true)]
+#[command(name = "typelift", version, max_term_width = 80, disable_help_subcommand = true)]
 #[command(after_help = "Begin with `typelift demo`.")]
 struct Arguments {
     #[command(subcommand)]

@@ -5,14 +5,14 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use serde::Serialize;
-use typelift::agent::{Options, Proposal, propose};
+use typelift::agent::{Options, Proposal, ProposeError, propose};
 use typelift::imagine;
 use typelift::model::{ActionModel, Budget, Plan as FoundPlan, Task};
-use typelift::plan::{Explanation, Outcome, Restrictions};
+use typelift::plan::{Cut, Explanation, Outcome, Restrictions};
 use typelift::world::write_file;
 
 use crate::exit::Exit;
-use crate::failure::Failure;
+use crate::failure::{Failure, cut_exit};
 use crate::files::{read_model, read_planning_task};
 use crate::limits::{Clock, Interrupt, Limits};
 use crate::plan_text::{imagined_note, numbered_steps, plan_file, plan_size};
@@ -28,8 +28,8 @@ const HINT_EXPANSIONS: u64 = 20_000;
   typelift plan kitchen.json K/tasks/T4.1.json --imagine -o apple.plan
   typelift plan kitchen.json K/tasks/T1.4.json --plans 3
 
-Exit codes: 0 a plan was found, 11 there is none in this model, 12 gave up at a limit,
-22 out of memory, 23 out of time, 31 bad input, 36 wrong usage.")]
+Exit codes: 0 a plan was found, 11 there is none in this model, 12 gave up at a
+limit, 22 out of memory, 23 out of time, 31 bad input, 36 wrong usage.")]
 pub(crate) struct Plan {
     /// The model, as `learn` wrote it
     model: PathBuf,
@@ -42,7 +42,8 @@ pub(crate) struct Plan {
     #[arg(long)]
     imagine: bool,
     /// Find so many different plans
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1000))]
+    #[arg(long, value_name = "N", default_value_t = 1, allow_negative_numbers = true,
+        value_parser = clap::value_parser!(u64).range(1..=1000))]
     plans: u64,
     /// Go on looking for shorter plans until there is none, a limit is met, or Ctrl-C is pressed
     #[arg(long, conflicts_with = "plans")]
@@ -61,7 +62,7 @@ pub(crate) struct Plan {
 }
 
 /// What is printed with `--json`.
-#[derive(Serialize)]
+#[derive(Default, Serialize)]
 struct Answer {
     outcome: &'static str,
     plans: Vec<PlanJson>,
@@ -98,18 +99,25 @@ impl Plan {
         let task = read_planning_task(&self.task, &model)?;
         let begun = clock.elapsed();
         let options = self.options(self.imagine);
-        let mut proposal = propose(&model, &task, &Restrictions::default(), &options, &budget)?;
+        let mut proposal = match propose(&model, &task, &Restrictions::default(), &options, &budget) {
+            Err(ProposeError::Cut(cut)) => return self.cut(cut, clock.elapsed() - begun),
+            proposal => proposal?,
+        };
         let mut out = anstream::stdout().lock();
         let mut plans: Vec<FoundPlan> = Vec::new();
         let last = loop {
             let outcome = proposal.outcome.clone();
             let Outcome::Solved(plan) = outcome else { break outcome };
             let number = plans.len() + 1;
+            plans.push(plan.clone());
             if !self.json {
                 let took = clock.elapsed() - begun;
-                self.print(&mut out, number, &plan, &proposal, &model, took)?;
+                if let Err(failure) = self.print(&mut out, number, &plan, &proposal, &model, took) {
+                    // Nobody reads on; the file is wanted all the same.
+                    self.write_plans(&plans, &proposal.model, &task)?;
+                    return Err(failure);
+                }
             }
-            plans.push(plan);
             if !self.better && plans.len() as u64 == self.plans {
                 break proposal.outcome.clone();
             }
@@ -132,6 +140,23 @@ impl Plan {
             Some(explanation) => self.report_none(&last, &explanation, &model, &task, &budget),
             None if !quiet => self.report_end(&last, plans.len()),
             None => {}
+        }
+        Ok(exit)
+    }
+
+    /// Says that the search did not even begin.
+    fn cut(&self, cut: Cut, took: Duration) -> Result<Exit, Failure> {
+        let exit = cut_exit(cut);
+        let (outcome, why) = match exit {
+            Exit::OutOfMemory => ("out_of_memory", "out of memory while grounding"),
+            Exit::OutOfTime => ("out_of_time", "out of time while grounding"),
+            _ => ("stopped", "stopped while grounding"),
+        };
+        if self.json {
+            let answer = Answer { outcome, seconds: took.as_secs_f64(), ..Answer::default() };
+            writeln!(anstream::stdout(), "{}", serde_json::to_string_pretty(&answer).unwrap_or_default())?;
+        } else {
+            anstream::eprintln!("{BAD}no plan{BAD:#}: {why}");
         }
         Ok(exit)
     }

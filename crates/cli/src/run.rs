@@ -29,14 +29,15 @@ const EXPANSIONS: u64 = 200_000;
 
 /// Carry out tasks in an environment
 #[derive(Debug, clap::Args)]
+#[command(group = clap::ArgGroup::new("environment").required(true).args(["kitchen", "env"]))]
 #[command(after_help = "Examples:
   typelift run kitchen.json K/tasks/T4.1.json --kitchen --imagine
   typelift run kitchen.json K/faults/*.json --kitchen --imagine --json
-  typelift run model.json task.json --env 'python3 my_robot.py' --imagine --confirm
+  typelift run model.json task.json --env 'python3 robot.py' --imagine --confirm
 
-Each step's outcome is compared with what was expected. After a failure it excludes,
-imagines, plans again and remembers, also for the tasks after it. One search expands at
-most 200,000 nodes unless --max-expansions says otherwise.
+Each step's outcome is compared with what was expected. After a failure it
+excludes, imagines, plans again and remembers, also for the tasks after it. One
+search expands at most 200,000 nodes unless --max-expansions says otherwise.
 
 Exit codes: 0 every goal was seen to hold, 12 not every one, 31 bad input,
 35 the environment failed, 36 wrong usage.")]
@@ -47,10 +48,10 @@ pub(crate) struct Run {
     #[arg(required = true, value_name = "TASK")]
     tasks: Vec<PathBuf>,
     /// Act in the built-in kitchen simulator
-    #[arg(long, required_unless_present = "env", conflicts_with = "env")]
+    #[arg(long)]
     kitchen: bool,
     /// Act in the environment that this command is: it speaks env/1 on its standard input and output
-    #[arg(long, value_name = "COMMAND")]
+    #[arg(long, value_name = "COMMAND", value_parser = clap::builder::NonEmptyStringValueParser::new())]
     env: Option<String>,
     /// Wait so long for an answer: hello (10s), reset (60s), observe (10s), act (300s), close (2s)
     #[arg(long, value_name = "OP=TIME,…", value_delimiter = ',', value_parser = parse_timeout, requires = "env")]
@@ -59,22 +60,22 @@ pub(crate) struct Run {
     #[arg(long, value_name = "FILE")]
     types: Option<PathBuf>,
     /// The seed that the environment is reset with, instead of the task's
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     seed: Option<u64>,
     /// Imagine actions for goals that cannot be reached with the learned ones
     #[arg(long)]
     imagine: bool,
-    /// Ask before a plan is executed: one that rests on imagined actions, or every one
+    /// Ask before a plan is executed: only one that rests on imagined actions, or any [default: imagined]
     #[arg(long, value_name = "WHICH", num_args = 0..=1, default_missing_value = "imagined")]
     confirm: Option<Which>,
     /// After a failure set the environment back and plan from the start, as the paper does
     #[arg(long)]
     restart: bool,
     /// Try a failed step again so often [default: 1, with --restart 0]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     retries: Option<u32>,
     /// Propose at most this many plans a task
-    #[arg(long, value_name = "N", default_value_t = 12)]
+    #[arg(long, value_name = "N", default_value_t = 12, allow_negative_numbers = true)]
     max_proposals: u64,
     /// Use an action also where some of its effects hold already
     #[arg(long)]
@@ -107,9 +108,8 @@ fn parse_timeout(text: &str) -> Result<(Operation, Duration), String> {
 /// Which plans are to be confirmed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Which {
-    /// Those with imagined steps
+    // Those with imagined steps.
     Imagined,
-    /// All
     All,
 }
 
@@ -121,15 +121,16 @@ impl Run {
         for path in &self.tasks {
             tasks.push((path, read_run_task(path)?));
         }
-        let events = match &self.events {
-            None => None,
-            Some(path) => Some(BufWriter::new(File::create(path).map_err(|e| FileError::from_io(path, &e))?)),
-        };
         let mut world = self.open(&interrupt)?;
         if self.restart && !world.can_reset() {
             return Err(Failure::bad_input(format!("--restart: {} cannot be reset", world.name()))
-                .with_hint("without --restart it goes on from where it is"));
+                .with_hint("Without --restart it goes on from where it is."));
         }
+        // Only now, so that what an earlier run wrote there is kept when this one cannot begin.
+        let events = match &self.events {
+            None => None,
+            Some(path) => Some(BufWriter::new(File::create(path).map_err(|e| FileError::from_write(path, &e))?)),
+        };
         let mut narrator = Narrator::new(!quiet && !self.json, events);
         let mut experience = Experience::new();
         let mut out = anstream::stdout().lock();
@@ -153,7 +154,7 @@ impl Run {
             if interrupt.is_set() && ran.is_err() {
                 return Ok(Exit::Interrupted);
             }
-            let account = ran?;
+            let account = ran.map_err(|error| Failure::from(error).in_file(path))?;
             if let Some(error) = narrator.events_error.take() {
                 return Err(Failure::bad_input(format!("--events: {error}")));
             }

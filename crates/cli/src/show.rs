@@ -10,7 +10,7 @@ use typelift::model::{
 use typelift::pddl::write_domain;
 
 use crate::exit::Exit;
-use crate::failure::Failure;
+use crate::failure::{Failure, or_one_of};
 use crate::files::read_model;
 use crate::style::{DIM, HEAD, count, wrapped};
 
@@ -57,9 +57,8 @@ impl Show {
             }
             Some(name) => {
                 let action = model.action(name).ok_or_else(|| {
-                    let names: Vec<&str> = model.actions.iter().map(|a| a.name.as_str()).collect();
-                    Failure::bad_input(format!("the model has no action `{name}`"))
-                        .with_hint(format!("it has {}", names.join(" ")))
+                    let names: Vec<Symbol> = model.actions.iter().map(|a| a.name.clone()).collect();
+                    Failure::bad_input(format!("the model has no action `{name}`")).with_hint(or_one_of(name, &names))
                 })?;
                 write!(out, "{}", describe(action, &model, true))?;
             }

@@ -1,4 +1,5 @@
-//! The model's file: versioned, self-contained JSON, in which everything is written by name.
+//! The model's file: versioned, self-contained JSON, in which everything is written by name. Its reader is the next
+//! file.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,9 +7,9 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::{
-    ActionModel, ActionSchema, AtomTextError, Cluster, ClusterKey, Effect, Evidence, GroundAtom, Hierarchy,
-    HierarchyError, LiftedAtom, LiftedCall, Literal, NameCollision, NegativeKey, Parameter, ParseConfig, Provenance,
-    Replacement, Source, Symbol, Term, TypeId, Unexplained, Witness,
+    ActionModel, ActionSchema, Cluster, ClusterKey, Effect, Evidence, GroundAtom, Hierarchy, HierarchyError,
+    LiftedAtom, Literal, NameCollision, NegativeKey, ParseConfig, Provenance, Replacement, Source, Symbol, Unexplained,
+    Witness,
 };
 
 /// The format that this version reads and writes.
@@ -30,6 +31,12 @@ pub enum ModelFileError {
     /// It is of another version.
     #[error("this is a file of format `{found}`; this version of typelift reads `{MODEL_FORMAT}`")]
     Version {
+        /// The format it names.
+        found: String,
+    },
+    /// It is of another kind.
+    #[error("this is a file of format `{found}`, not a model")]
+    NotAModel {
         /// The format it names.
         found: String,
     },
@@ -63,17 +70,17 @@ pub enum ModelFileError {
 #[derive(Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub(crate) struct ModelFile {
-    format: String,
+    pub(crate) format: String,
     /// `[child, parent]` pairs, parents first.
-    types: Vec<(Symbol, Symbol)>,
-    predicates: BTreeMap<Symbol, usize>,
+    pub(crate) types: Vec<(Symbol, Symbol)>,
+    pub(crate) predicates: BTreeMap<Symbol, usize>,
     #[serde(default)]
-    parse: ParseConfig,
+    pub(crate) parse: ParseConfig,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    actor: Option<Symbol>,
-    actions: Vec<ActionFile>,
+    pub(crate) actor: Option<Symbol>,
+    pub(crate) actions: Vec<ActionFile>,
     #[serde(default)]
-    evidence: EvidenceFile,
+    pub(crate) evidence: EvidenceFile,
     /// PDDL names, by the model's names; written for other tools, made anew when the model is read.
     #[serde(default)]
     pddl: PddlFile,
@@ -89,20 +96,20 @@ struct PddlFile {
 
 #[derive(Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-struct ActionFile {
-    name: Symbol,
-    call: CallFile,
+pub(crate) struct ActionFile {
+    pub(crate) name: Symbol,
+    pub(crate) call: CallFile,
     /// `[name, type]` pairs.
-    parameters: Vec<(Symbol, Symbol)>,
+    pub(crate) parameters: Vec<(Symbol, Symbol)>,
     #[serde(default)]
-    preconditions: Vec<LiteralFile>,
+    pub(crate) preconditions: Vec<LiteralFile>,
     #[serde(default)]
-    distinct: Vec<(u32, u32)>,
+    pub(crate) distinct: Vec<(u32, u32)>,
     #[serde(default)]
-    effects: Vec<EffectFile>,
+    pub(crate) effects: Vec<EffectFile>,
     #[serde(default = "one")]
-    cost: u32,
-    provenance: ProvenanceFile,
+    pub(crate) cost: u32,
+    pub(crate) provenance: ProvenanceFile,
 }
 
 fn one() -> u32 {
@@ -111,16 +118,16 @@ fn one() -> u32 {
 
 #[derive(Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-struct CallFile {
-    name: Symbol,
+pub(crate) struct CallFile {
+    pub(crate) name: Symbol,
     /// `?0` for a parameter, else a constant.
-    args: Vec<String>,
+    pub(crate) args: Vec<String>,
 }
 
 #[derive(Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
-enum LiteralFile {
+pub(crate) enum LiteralFile {
     Not(LiftedAtom),
     #[serde(untagged)]
     Is(LiftedAtom),
@@ -129,7 +136,7 @@ enum LiteralFile {
 #[derive(Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(untagged)]
-enum EffectFile {
+pub(crate) enum EffectFile {
     When { when: Vec<LiteralFile>, then: LiteralFile },
     Always(LiteralFile),
 }
@@ -137,7 +144,7 @@ enum EffectFile {
 #[derive(Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
-enum ProvenanceFile {
+pub(crate) enum ProvenanceFile {
     Given,
     /// The cluster's number in `evidence`, and the action's parameter for each of the cluster's.
     Demonstrated(SourceFile),
@@ -158,48 +165,59 @@ enum ProvenanceFile {
 
 #[derive(Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-struct SourceFile {
-    cluster: usize,
-    map: Vec<u32>,
+pub(crate) struct SourceFile {
+    pub(crate) cluster: usize,
+    pub(crate) map: Vec<u32>,
 }
 
 #[derive(Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-struct EvidenceFile {
+pub(crate) struct EvidenceFile {
     #[serde(default)]
-    transitions: u64,
+    pub(crate) transitions: u64,
     #[serde(default)]
-    clusters: Vec<ClusterFile>,
+    pub(crate) clusters: Vec<ClusterFile>,
     #[serde(default)]
-    negatives: Vec<NegativeFile>,
+    pub(crate) negatives: Vec<NegativeFile>,
     #[serde(default)]
-    unexplained: Vec<UnexplainedFile>,
+    pub(crate) unexplained: Vec<UnexplainedFile>,
 }
 
 #[derive(Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-struct ClusterFile {
+pub(crate) struct ClusterFile {
     #[serde(flatten)]
-    key: ClusterKey,
+    pub(crate) key: ClusterKey,
     #[serde(flatten)]
-    cluster: Cluster,
+    pub(crate) cluster: Cluster,
 }
 
 #[derive(Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-struct NegativeFile {
+pub(crate) struct NegativeFile {
     #[serde(flatten)]
-    key: NegativeKey,
+    pub(crate) key: NegativeKey,
     #[serde(flatten)]
-    cluster: Cluster,
+    pub(crate) cluster: Cluster,
 }
 
 #[derive(Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-struct UnexplainedFile {
-    reason: Unexplained,
-    count: u64,
-    witnesses: BTreeSet<Witness>,
+pub(crate) struct UnexplainedFile {
+    pub(crate) reason: Unexplained,
+    pub(crate) count: u64,
+    pub(crate) witnesses: BTreeSet<Witness>,
+}
+
+#[cfg(feature = "schema")]
+impl schemars::JsonSchema for ActionModel {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Model".into()
+    }
+
+    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        ModelFile::json_schema(generator)
+    }
 }
 
 impl ActionModel {
@@ -232,90 +250,10 @@ impl ActionModel {
         text.push('\n');
         Ok(text)
     }
-
-    /// Reads a model file.
-    ///
-    /// # Errors
-    /// [`ModelFileError`] if it is not one, or contradicts itself.
-    pub fn from_json(text: &str) -> Result<Self, ModelFileError> {
-        let json = |e: serde_json::Error| {
-            let message = e.to_string();
-            let message = message.split(" at line ").next().unwrap_or(&message).to_owned();
-            ModelFileError::Json { line: e.line(), column: e.column(), message }
-        };
-        #[derive(Deserialize)]
-        struct Head {
-            format: Option<String>,
-        }
-        let head: Head = serde_json::from_str(text).map_err(json)?;
-        match head.format {
-            None => return Err(ModelFileError::NoFormat),
-            Some(found) if found != MODEL_FORMAT => return Err(ModelFileError::Version { found }),
-            Some(_) => {}
-        }
-        let file: ModelFile = serde_json::from_str(text).map_err(json)?;
-        let hierarchy = Hierarchy::from_edges(file.types.iter().map(|(c, p)| (c.as_str(), p.as_str())))?;
-        let keys: Vec<ClusterKey> = file.evidence.clusters.iter().map(|c| c.key.clone()).collect();
-        let actor = file.actor.map(|name| type_id(&hierarchy, &name, || "\"actor\"".to_owned())).transpose()?;
-        let mut names = BTreeSet::new();
-        let mut actions = Vec::with_capacity(file.actions.len());
-        for action in file.actions {
-            let action = read_action(action, &hierarchy, &keys)?;
-            if !names.insert(action.name.clone()) {
-                return Err(inconsistent(format!("action {}", action.name), "there is another action of this name"));
-            }
-            actions.push(action);
-        }
-        actions.sort_by(|a, b| a.name.cmp(&b.name));
-        let evidence = Evidence {
-            transitions: file.evidence.transitions,
-            clusters: file.evidence.clusters.into_iter().map(|c| (c.key, c.cluster)).collect(),
-            negatives: file.evidence.negatives.into_iter().map(|c| (c.key, c.cluster)).collect(),
-            unexplained: file.evidence.unexplained.into_iter().map(|u| (u.reason, (u.count, u.witnesses))).collect(),
-        };
-        let model = Self { hierarchy, predicates: file.predicates, parse: file.parse, actor, actions, evidence };
-        model.check_arities()?;
-        model.pddl_names()?;
-        Ok(model)
-    }
-
-    fn check_arities(&self) -> Result<(), ModelFileError> {
-        for action in &self.actions {
-            let conditions = action.effects.iter().flat_map(|e| e.condition.iter().chain([&e.literal]));
-            for literal in action.preconditions.iter().chain(conditions) {
-                let expected = self.predicates.get(&literal.atom.predicate);
-                if expected != Some(&literal.atom.arity()) {
-                    let message = match expected {
-                        Some(n) => {
-                            format!("{} has {} arguments, its predicate takes {n}", literal.atom, literal.atom.arity())
-                        }
-                        None => format!("unknown predicate `{}`", literal.atom.predicate),
-                    };
-                    return Err(ModelFileError::Inconsistent { place: format!("action {}", action.name), message });
-                }
-            }
-        }
-        Ok(())
-    }
-}
-
-fn inconsistent(place: String, message: &str) -> ModelFileError {
-    ModelFileError::Inconsistent { place, message: message.to_owned() }
-}
-
-fn type_id(hierarchy: &Hierarchy, name: &Symbol, place: impl Fn() -> String) -> Result<TypeId, ModelFileError> {
-    hierarchy.id(name.as_str()).ok_or_else(|| ModelFileError::UnknownType { place: place(), name: name.clone() })
 }
 
 fn write_literal(literal: &Literal) -> LiteralFile {
     if literal.positive { LiteralFile::Is(literal.atom.clone()) } else { LiteralFile::Not(literal.atom.clone()) }
-}
-
-fn read_literal(literal: LiteralFile) -> Literal {
-    match literal {
-        LiteralFile::Is(atom) => Literal::positive(atom),
-        LiteralFile::Not(atom) => Literal::negative(atom),
-    }
 }
 
 fn write_action(action: &ActionSchema, hierarchy: &Hierarchy, clusters: &[&ClusterKey]) -> ActionFile {
@@ -360,88 +298,6 @@ fn write_action(action: &ActionSchema, hierarchy: &Hierarchy, clusters: &[&Clust
         cost: action.cost,
         provenance,
     }
-}
-
-fn read_action(
-    file: ActionFile,
-    hierarchy: &Hierarchy,
-    clusters: &[ClusterKey],
-) -> Result<ActionSchema, ModelFileError> {
-    let place = || format!("action {}", file.name);
-    let n = file.parameters.len() as u32;
-    let ty = |name: &Symbol| type_id(hierarchy, name, place);
-    let parameters = file
-        .parameters
-        .iter()
-        .map(|(name, t)| Ok(Parameter { name: name.clone(), ty: ty(t)? }))
-        .collect::<Result<Vec<_>, ModelFileError>>()?;
-    let args = file
-        .call
-        .args
-        .iter()
-        .map(|arg| read_term(arg).map_err(|e| inconsistent(place(), &e.to_string())))
-        .collect::<Result<Vec<_>, _>>()?;
-    let source = |s: SourceFile| match clusters.get(s.cluster) {
-        Some(key) if key.types.len() == s.map.len() && s.map.iter().all(|&p| p < n) => {
-            Ok(Source { cluster: key.clone(), map: s.map })
-        }
-        Some(_) => {
-            Err(inconsistent(place(), "a source does not map each of its cluster's parameters to one of the action's"))
-        }
-        None => Err(inconsistent(place(), &format!("there is no cluster {} in the evidence", s.cluster))),
-    };
-    let replaced = |list: Vec<(u32, Symbol, Symbol)>| {
-        list.into_iter()
-            .map(|(parameter, from, to)| Ok(Replacement { parameter, from: ty(&from)?, to: ty(&to)? }))
-            .collect::<Result<Vec<_>, ModelFileError>>()
-    };
-    let provenance = match file.provenance {
-        ProvenanceFile::Given => Provenance::Given,
-        ProvenanceFile::Demonstrated(s) => Provenance::Demonstrated(source(s)?),
-        ProvenanceFile::Generalized(s) => Provenance::Generalized(s.into_iter().map(source).collect::<Result<_, _>>()?),
-        ProvenanceFile::Imagined { from, replaced: r, goal, observations } => {
-            Provenance::Imagined { from, replaced: replaced(r)?, goal, observations }
-        }
-        ProvenanceFile::Substituted { from, replaced: r, following, observations } => {
-            Provenance::Substituted { from, replaced: replaced(r)?, following, observations }
-        }
-    };
-    let mut effects: Vec<Effect> = file
-        .effects
-        .into_iter()
-        .map(|e| match e {
-            EffectFile::Always(literal) => Effect::always(read_literal(literal)),
-            EffectFile::When { when, then } => {
-                Effect { condition: when.into_iter().map(read_literal).collect(), literal: read_literal(then) }
-            }
-        })
-        .collect();
-    effects.sort_unstable();
-    let mut preconditions: Vec<Literal> = file.preconditions.into_iter().map(read_literal).collect();
-    preconditions.sort_unstable();
-    let literals = effects.iter().flat_map(|e| e.condition.iter().chain([&e.literal])).chain(&preconditions);
-    let params = literals.flat_map(|l| l.atom.params());
-    let called = args.iter().filter_map(|t| if let Term::Param(i) = t { Some(*i) } else { None });
-    let distinct = file.distinct.iter().flat_map(|&(a, b)| [a, b]);
-    if let Some(bad) = params.chain(called).chain(distinct).find(|&i| i >= n) {
-        return Err(inconsistent(place(), &format!("there is no parameter ?{bad}")));
-    }
-    Ok(ActionSchema {
-        call: LiftedCall { name: file.call.name, args },
-        name: file.name,
-        parameters,
-        preconditions,
-        distinct: file.distinct,
-        effects,
-        cost: file.cost,
-        provenance,
-    })
-}
-
-fn read_term(text: &str) -> Result<Term, AtomTextError> {
-    LiftedAtom::parse(&format!("call({text})")).and_then(|mut atom| {
-        atom.args.pop().filter(|_| atom.args.is_empty()).ok_or(AtomTextError::Form { text: text.to_owned() })
-    })
 }
 
 fn write_evidence(evidence: &Evidence) -> EvidenceFile {

@@ -13,10 +13,12 @@
 mod action;
 mod action_model;
 mod action_model_file;
+mod action_model_reader;
 mod atom;
 mod budget;
 mod evidence;
 mod hierarchy;
+mod json_message;
 mod parse_config;
 mod pddl_names;
 mod plan;
@@ -38,6 +40,7 @@ pub use evidence::{
     Cluster, ClusterKey, Evidence, NegativeKey, PRE_STATE_BOUND, PreStates, Unexplained, WITNESS_BOUND, Witness,
 };
 pub use hierarchy::{Hierarchy, HierarchyError, ROOT, TypeId};
+pub use json_message::json_message;
 pub use parse_config::ParseConfig;
 pub use pddl_names::{NameCollision, PddlNames};
 pub use plan::{Imagined, Plan, Step};

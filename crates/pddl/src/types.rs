@@ -89,7 +89,10 @@ pub fn locate_hierarchy_error(text: &str, edges: &[TypeEdge], error: &HierarchyE
     let find = |child: &str, parent: &str| {
         edges.iter().find(|edge| edge.child == *child && edge.parent == *parent).map(|edge| edge.span)
     };
-    let at = |span: Option<Span>| PddlError::new(text, span.unwrap_or_default(), error.to_string());
+    let at = |span: Option<Span>| {
+        let error = PddlError::new(text, span.unwrap_or_default(), error.to_string());
+        error.with_hint("Types form a tree: take one of the declarations out.")
+    };
     match error {
         HierarchyError::TwoParents { child, first, second } => {
             let located = at(find(child.as_str(), second.as_str()));
@@ -108,7 +111,9 @@ pub fn locate_hierarchy_error(text: &str, edges: &[TypeEdge], error: &HierarchyE
                 _ => located,
             }
         }
-        HierarchyError::RootHasParent { parent } => at(find(ROOT, parent.as_str())),
+        HierarchyError::RootHasParent { parent } => {
+            at(find(ROOT, parent.as_str())).with_hint("Take this declaration out.")
+        }
     }
 }
 

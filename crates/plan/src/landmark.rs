@@ -7,9 +7,10 @@
 //! The paper clusters landmarks by the objects of the goal. A *goal object* is one with a unary goal atom; its
 //! sequence holds the landmarks, of all goal atoms that mention it, which mention it and do not hold initially. An
 //! atom that mentions several goal objects joins the sequence of the first. Any other goal atom gets a sequence of
-//! its own. Orders: natural (one is a landmark of the other) and reasonable (every achiever of B destroys something
-//! that A needs, and not the other way round: first A, then B); cycles and ties by the size of the landmark sets,
-//! then by name. Finally a landmark that is needed again is inserted again: before each L, what all achievers of L
+//! its own. Orders: A comes before B if it must: naturally (A is a landmark of B), or since B would foreclose it (each
+//! achiever of A needs a fact that every achiever of B deletes and nothing adds again). Else if it is reasonable:
+//! every achiever of B destroys something that A needs and that does not hold initially, and not the other way round.
+//! Cycles and ties by the size of the landmark sets, then by name. Finally a landmark that is needed again is inserted again: before each L, what all achievers of L
 //! need and every achiever of some landmark since has destroyed.
 
 use std::collections::{BTreeSet, VecDeque};
@@ -165,10 +166,24 @@ impl<'a> LandmarkSets<'a> {
         })
     }
 
+    /// Whether `a` cannot be achieved any more once `b` is: each achiever of `a` needs a fact that every achiever of
+    /// `b` deletes and nothing ever adds.
+    fn foreclosed_by_achieving(&self, a: FactId, b: FactId) -> bool {
+        let lost_for_good = |fact: FactId| {
+            self.achievers[fact.index()].is_empty()
+                && self.every_achiever(b, |op| op.deletes.binary_search(&fact).is_ok())
+        };
+        self.every_achiever(a, |op| op.preconditions.iter().any(|&fact| lost_for_good(fact)))
+    }
+
     fn ordered(&self, facts: &[FactId]) -> Vec<FactId> {
-        let natural = |a: FactId, b: FactId| self.of_fact(b).binary_search(&a).is_ok();
+        // What forecloses each other has to be achieved at once: neither comes before the other.
+        let must = |a: FactId, b: FactId| {
+            self.of_fact(b).binary_search(&a).is_ok()
+                || self.foreclosed_by_achieving(a, b) && !self.foreclosed_by_achieving(b, a)
+        };
         let before = |a: FactId, b: FactId| {
-            natural(a, b) || !natural(b, a) && self.destroyed_by_achieving(a, b) && !self.destroyed_by_achieving(b, a)
+            must(a, b) || !must(b, a) && self.destroyed_by_achieving(a, b) && !self.destroyed_by_achieving(b, a)
         };
         let mut left: Vec<(usize, GroundAtom, FactId)> =
             facts.iter().map(|&fact| (self.of_fact(fact).len(), self.task.atom(fact), fact)).collect();

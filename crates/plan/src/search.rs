@@ -190,7 +190,7 @@ impl Search {
                 apply(op, &state, &mut after);
                 let h = self.heuristic.successor(&parent_memory, op, &after, &mut memory);
                 self.report.evaluations += 1;
-                let actions = node.actions.wrapping_add(hash_of(&op_id));
+                let actions = node.actions.wrapping_add(spread(op_id.index() as u64 + 1));
                 self.insert(&after, &memory, h, node.g + u64::from(op.cost), Some((id, op_id)), actions);
             }
         }
@@ -259,7 +259,13 @@ impl Search {
 }
 
 fn hash_of(value: &impl Hash) -> u64 {
-    // Spread the bits: sums of these are compared.
-    let hash = rustc_hash::FxBuildHasher.hash_one(value);
-    hash.wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(29)
+    rustc_hash::FxBuildHasher.hash_one(value)
+}
+
+/// A number with its bits spread (SplitMix64's finalizer), so that sums of different multisets differ.
+fn spread(number: u64) -> u64 {
+    let mut bits = number.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    bits ^ (bits >> 31)
 }

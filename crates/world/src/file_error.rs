@@ -80,6 +80,15 @@ impl FileError {
         )
     }
 
+    /// An error of the operating system in writing.
+    pub fn from_write(file: &Path, error: &io::Error) -> Self {
+        match error.kind() {
+            io::ErrorKind::NotFound => Self::new(file, "there is no such folder to write to"),
+            io::ErrorKind::NotADirectory => Self::new(file, "a part of this path is a file, not a folder"),
+            _ => Self::from_io(file, error),
+        }
+    }
+
     /// An error of PDDL text, with its lines.
     pub fn from_pddl(file: &Path, text: &str, error: PddlError) -> Self {
         Self {
@@ -108,6 +117,7 @@ impl FileError {
                     None => "Add it to the hierarchy.".to_owned(),
                 })
             }
+            ParseErrorKind::Duplicate => Some("Give each entity a name of its own.".to_owned()),
             ParseErrorKind::TwoSources { .. } => Some("Rename one of the two, or ignore it.".to_owned()),
             _ => None,
         };

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use typelift_model::{Hierarchy, Symbol};
-use typelift_pddl::{Span, TypeEdge, hierarchy_from_types};
+use typelift_model::{Hierarchy, Symbol, check_name};
+use typelift_pddl::{PddlError, Span, TypeEdge, hierarchy_from_types};
 
 use crate::{FileError, json, read_text};
 
@@ -56,6 +56,13 @@ pub fn read_types(path: &Path) -> Result<TypesFile, FileError> {
             return Err(FileError::new(path, what).with_hint(EXAMPLE.to_owned()));
         }
     };
+    for edge in &edges {
+        for name in [&edge.child, &edge.parent] {
+            check_name(name.as_str()).map_err(|error| {
+                FileError::from_pddl(path, &text, PddlError::new(&text, edge.span, error.to_string()))
+            })?;
+        }
+    }
     Ok(TypesFile { path: path.to_owned(), text, edges })
 }
 
@@ -115,7 +122,7 @@ mod tests {
         assert_eq!(edges("(:types rod - piece)"), expected);
         assert_eq!(edges("; types\n(define (domain d) (:types rod - piece))"), expected);
         assert_eq!(edges("\n {\"rod\": \"piece\"}"), expected);
-        assert_eq!(edges(r#"{"a\"\\": "b", "c": "a\"\\"}"#), ["b<object", "a\"\\<b", "c<a\"\\"]);
+        assert_eq!(edges(r#"{"a\\": "b", "c": "a\\"}"#), ["b<object", "a\\<b", "c<a\\"]);
     }
 
     #[test]
@@ -138,6 +145,10 @@ mod tests {
             ("{\"a\": 1}", "types:1:7: invalid type: integer `1`, expected a string"),
             ("{\"a\": \"b\"", "types:1:9: the JSON text ends too early"),
             ("(:types a - b\n a - c)", "types:2:2: type `a` has two parents, `b` and `c`"),
+            ("{\"a\": \"two words\"}", "types:1:3: `two words` cannot be a name: it holds white space"),
+            (r#"{"a\"\\": "b"}"#, "types:1:3: `a\"\\` cannot be a name: it holds one of ( ) , ; \""),
+            ("{\"\": \"a\"}", "types:1:3: `` cannot be a name: it is empty"),
+            ("(:types a,b - c)", "types:1:9: `a,b` cannot be a name: it holds one of ( ) , ; \""),
             ("(:types a", "types:1:1: this `(` is never closed"),
             (
                 "{\"object\": \"b\"}",

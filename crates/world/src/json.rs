@@ -5,24 +5,53 @@ use std::fmt;
 use std::marker::PhantomData;
 
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, Visitor};
-use typelift_model::Symbol;
+use typelift_model::{Symbol, json_message};
 
 /// The message of an error without its place.
 pub(crate) fn message(error: &serde_json::Error) -> String {
-    let full = error.to_string();
-    let text = full.rsplit_once(" at line ").map_or(full.as_str(), |(text, _)| text);
-    if error.is_eof() {
-        return "the JSON text ends too early".to_owned();
-    }
-    match text {
+    let text = json_message(error);
+    match text.as_str() {
         "data did not match any variant of untagged enum Value" => {
             "an attribute is true, false, a word, a number or a list of numbers".to_owned()
         }
         "data did not match any variant of untagged enum Relation" => {
             "a relation is to an entity's name, null or a list of names".to_owned()
         }
-        "trailing characters" => "nothing may follow after the end of the JSON text".to_owned(),
-        _ => text.to_owned(),
+        _ => text,
+    }
+}
+
+/// What to do about an error at the end of this text, if that is known.
+pub(crate) fn hint(error: &serde_json::Error, text: &str) -> Option<String> {
+    let line = text.lines().nth(error.line().max(1) - 1)?;
+    // The column is that of the first letter, or the one after a sign.
+    let at = |back: usize| line.get(error.column().checked_sub(back)?..);
+    let starts =
+        |back| at(back).is_some_and(|rest| ["NaN", "Infinity", "-Infinity"].iter().any(|n| rest.starts_with(n)));
+    (starts(1) || starts(2)).then(|| "JSON has no NaN and no Infinity: leave the attribute out.".to_owned())
+}
+
+/// What a file of JSON says that it is: the `format` of its first value, other values after it or not.
+pub(crate) fn format(text: &str) -> Result<Option<String>, serde_json::Error> {
+    #[derive(serde::Deserialize)]
+    #[serde(expecting = "an object")]
+    struct FormatLine {
+        format: Option<String>,
+    }
+    let mut values = serde_json::Deserializer::from_str(text).into_iter::<FormatLine>();
+    Ok(values.next().transpose()?.and_then(|line| line.format))
+}
+
+/// Refuses a format that is not the one read: `what`, and what to do about it.
+pub(crate) fn check_format(found: &str, read: &str) -> Result<(), (String, Option<String>)> {
+    let kind = |format: &str| format.split('/').next().unwrap_or_default().to_owned();
+    if found == read {
+        Ok(())
+    } else if kind(found) == kind(read) {
+        let what = format!("this is a file of format `{found}`; this version of typelift reads `{read}`");
+        Err((what, Some("Use the typelift that wrote it, or write it again.".to_owned())))
+    } else {
+        Err((format!("this is a file of format `{found}`, not a {}", kind(read)), None))
     }
 }
 

@@ -54,7 +54,8 @@ impl<R: BufRead> LineReader<R> {
         let complete = self.buffer.last() == Some(&b'\n');
         if !complete && self.buffer.len() > self.limit {
             let what = format!("this line is longer than {}", shown_bytes(self.limit));
-            return Err(FileError::at_line(&self.path, self.line, what));
+            let hint = "Leave out of the states what gives no atoms, such as images.".to_owned();
+            return Err(FileError::at_line(&self.path, self.line, what).with_hint(hint));
         }
         let text = str::from_utf8(&self.buffer).map_err(|e| not_utf8(&self.path, self.line, e.valid_up_to()))?;
         let text = if self.line == 1 { text.strip_prefix('\u{FEFF}').unwrap_or(text) } else { text };

@@ -205,7 +205,10 @@ impl Parser {
     }
 
     fn add_object(&self, state: &mut State, name: &Symbol, ty: &Symbol) -> Result<(), ParseError> {
-        check_name(name.as_str()).map_err(|e| ParseError::at(name, ParseErrorKind::Name(e.to_string())))?;
+        check_name(name.as_str()).map_err(|e| {
+            let kind = ParseErrorKind::Name(format!("the name of an entity: {e}"));
+            ParseError { entity: None, kind }
+        })?;
         let id = self.hierarchy.id(ty.as_str()).ok_or_else(|| {
             let names = self.hierarchy.types().map(|t| self.hierarchy.name(t));
             let similar = names.into_iter().find(|n| n.as_str().eq_ignore_ascii_case(ty.as_str())).cloned();

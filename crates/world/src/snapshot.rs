@@ -5,6 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde::{Deserialize, Serialize};
 use typelift_model::{GroundAtom, Symbol};
 
+use crate::json::distinct_map;
+
 /// An attribute's value.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -51,10 +53,10 @@ pub struct Entity {
     #[serde(rename = "type")]
     pub ty: Symbol,
     /// Scalar properties.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "distinct_map")]
     pub attributes: BTreeMap<Symbol, Value>,
     /// Relations to other entities.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "distinct_map")]
     pub relations: BTreeMap<Symbol, Relation>,
 }
 
@@ -76,6 +78,7 @@ pub enum Scene {
     /// Objects and atoms.
     Symbolic {
         /// Every object, with its type's name.
+        #[serde(deserialize_with = "distinct_map")]
         objects: BTreeMap<Symbol, Symbol>,
         /// The atoms that hold.
         #[serde(default)]

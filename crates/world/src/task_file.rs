@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 use typelift_model::{GroundAtom, State, Symbol, Task};
 
-use crate::trace_line::{FormatLine, SceneLine};
-use crate::{FileError, ParseError, Parser, Scene, read_text, write_file};
+use crate::trace_line::SceneLine;
+use crate::{FileError, ParseError, Parser, Scene, json, read_text, write_file};
 
 /// The format that this version reads and writes.
 pub const TASK_FORMAT: &str = "task/1";
@@ -44,7 +44,7 @@ pub enum TaskError {
         near: Option<Symbol>,
     },
     /// A predicate with another number of arguments.
-    #[error("in the goal {atom}: `{}` takes {expected} arguments, not {}", .atom.predicate, .atom.arity())]
+    #[error("in the goal {atom}: `{}` takes {expected} argument{}, not {}", .atom.predicate, if *.expected == 1 { "" } else { "s" }, .atom.arity())]
     Arity {
         /// The goal atom.
         atom: GroundAtom,
@@ -71,7 +71,11 @@ impl TaskError {
                 near.as_ref().map(|name| format!("Did you mean `{name}`?"))
             }
             Self::NoState => Some("Give it a `state`, or run it in an environment.".to_owned()),
-            Self::State(_) | Self::Arity { .. } => None,
+            Self::Arity { atom, expected } => {
+                let args: Vec<String> = (1..=*expected).map(|i| format!("x{i}")).collect();
+                Some(format!("Write `{}({})`, with the names of entities.", atom.predicate, args.join(",")))
+            }
+            Self::State(_) => None,
         }
     }
 
@@ -164,6 +168,7 @@ impl schemars::JsonSchema for TaskFile {
 }
 
 #[derive(Deserialize)]
+#[serde(expecting = "a task")]
 struct ReadTask {
     goal: Vec<GroundAtom>,
     state: Option<SceneLine>,
@@ -180,18 +185,23 @@ pub fn read_task(path: &Path) -> Result<TaskFile, FileError> {
     if text.trim().is_empty() {
         return Err(FileError::new(path, "the file is empty"));
     }
-    let json = |error: serde_json::Error| FileError::from_json(path, 1, &error);
-    let FormatLine { format } = serde_json::from_str(&text).map_err(json)?;
-    match format {
+    if text.trim_start().starts_with(['(', ';']) {
+        let what = "this is a PDDL file; typelift reads tasks as JSON so far";
+        return Err(FileError { unsupported: true, ..FileError::new(path, what) });
+    }
+    let json = |error: serde_json::Error| {
+        let hint = json::hint(&error, &text);
+        FileError::from_json(path, 1, &error).with_hint(hint)
+    };
+    match json::format(&text).map_err(json)? {
         None => {
             let what = format!("there is no \"format\":\"{TASK_FORMAT}\": this is not a task file");
             return Err(FileError::new(path, what));
         }
-        Some(found) if found != TASK_FORMAT => {
-            let what = format!("this is a file of format `{found}`; this version of typelift reads `{TASK_FORMAT}`");
-            return Err(FileError::new(path, what));
+        Some(found) => {
+            json::check_format(&found, TASK_FORMAT)
+                .map_err(|(what, hint)| FileError::new(path, what).with_hint(hint))?;
         }
-        Some(_) => {}
     }
     let ReadTask { goal, state, scenario, seed } = serde_json::from_str(&text).map_err(json)?;
     let state = state.map(SceneLine::scene).transpose().map_err(|what| FileError::new(path, what))?;

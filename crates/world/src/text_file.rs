@@ -28,6 +28,7 @@ pub fn read_text(path: &Path) -> Result<String, FileError> {
 pub(crate) fn not_utf8(path: &Path, line: usize, offset: usize) -> FileError {
     FileError::at_line(path, line, format!("this is not UTF-8 text from byte {} of the line on", offset + 1))
         .with_column(offset + 1)
+        .with_hint("Save it as UTF-8.".to_owned())
 }
 
 /// Writes a file in one go: whoever reads it sees the old content or the new, never a part. What is not a regular
@@ -36,15 +37,13 @@ pub(crate) fn not_utf8(path: &Path, line: usize, offset: usize) -> FileError {
 /// # Errors
 /// [`FileError`] if that fails; nothing is left behind then.
 pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
-    replace(path, bytes).map_err(|error| match error.kind() {
-        io::ErrorKind::NotFound => FileError::new(path, "there is no such folder to write to"),
-        _ => FileError::from_io(path, &error),
-    })
+    replace(path, bytes).map_err(|error| FileError::from_write(path, &error))
 }
 
 fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    // A link stays a link: what it leads to is replaced.
-    let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    // A link stays a link: what it leads to is replaced, or made.
+    let missing = |_| fs::read_link(path).map(|to| path.parent().unwrap_or(Path::new("")).join(to));
+    let target = fs::canonicalize(path).or_else(missing).unwrap_or_else(|_| path.to_owned());
     let existing = fs::metadata(&target).ok();
     if existing.as_ref().is_some_and(|data| !data.is_file()) {
         return OpenOptions::new().write(true).open(&target)?.write_all(bytes);
@@ -110,6 +109,9 @@ mod tests {
         write_file(&link, b"new").expect("written");
         assert_eq!(read_text(&path).as_deref(), Ok("new"));
         assert!(fs::symlink_metadata(&link).expect("there").is_symlink());
+        std::fs::remove_file(&path).expect("removed");
+        write_file(&link, b"made").expect("written");
+        assert_eq!(read_text(&path).as_deref(), Ok("made"));
         write_file(Path::new("/dev/null"), b"gone").expect("written");
         assert!(!fs::metadata("/dev/null").expect("there").is_file());
     }

@@ -5,11 +5,11 @@ use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 
-use typelift_model::{GroundAtom, HashMap, State, Symbol, SymbolPool, TypeId};
+use typelift_model::{GroundAtom, HashMap, State, Symbol, SymbolPool, TypeId, check_name};
 
 use crate::line_reader::{LINE_LIMIT, Line, LineReader};
 use crate::similar::did_you_mean;
-use crate::trace_line::{BodyLine, FormatLine, HeaderLine, TRACE_FORMAT};
+use crate::trace_line::{BodyLine, HeaderLine, TRACE_FORMAT};
 use crate::{FileError, Parser, Scene, Trace, TraceAction, json};
 
 /// The first line of a trace.
@@ -75,15 +75,12 @@ impl<R: BufRead> TraceReader<R> {
         if !line.text.trim_start().starts_with('{') {
             return Err(no_header());
         }
-        let FormatLine { format } = parse(path, &line)?;
-        match format {
-            None => return Err(no_header()),
-            Some(found) if found != TRACE_FORMAT => {
-                let what =
-                    format!("this is a file of format `{found}`; this version of typelift reads `{TRACE_FORMAT}`");
-                return Err(FileError::at_line(path, 1, what));
-            }
-            Some(_) => {}
+        match json::format(line.text) {
+            Err(error) if error.is_eof() && line.complete => return Err(no_header()),
+            Err(error) => return Err(malformed(path, &line, &error)),
+            Ok(None) => return Err(no_header()),
+            Ok(Some(found)) => json::check_format(&found, TRACE_FORMAT)
+                .map_err(|(what, hint)| FileError::at_line(path, 1, what).with_hint(hint))?,
         }
         let HeaderLine { task, goal } = parse(path, &line)?;
         Ok(Self { lines, header: TraceHeader { task, goal }, last: Last::Header, done: false })
@@ -102,12 +99,12 @@ impl<R: BufRead> TraceReader<R> {
     fn next_item(&mut self) -> Result<Option<TraceItem>, FileError> {
         let path = self.lines.path().to_owned();
         let Some(line) = self.lines.next_line()? else {
-            let missing = match self.last {
+            let (missing, hint) = match self.last {
                 Last::State => return Ok(None),
-                Last::Header => "there is no state after the header",
-                Last::Action => "there is no state after the last action",
+                Last::Header => ("there is no state after the header", "A trace has at least one state."),
+                Last::Action => ("there is no state after the last action", AFTER_EVERY_ACTION),
             };
-            return Err(FileError::at_line(&path, self.lines.line(), missing));
+            return Err(FileError::at_line(&path, self.lines.line(), missing).with_hint(hint.to_owned()));
         };
         if line.text.trim().is_empty() {
             let number = line.number;
@@ -120,6 +117,10 @@ impl<R: BufRead> TraceReader<R> {
         }
         let number = line.number;
         let error = |what: &str| FileError::at_line(&path, number, what);
+        if !line.text.trim_start().starts_with('{') {
+            let hint = r#"A line is {"state":…} or {"action":…}."#;
+            return Err(error("this line is not a JSON object").with_hint(hint.to_owned()));
+        }
         let body: BodyLine = parse(&path, &line)?;
         let item = match (body.state, body.action) {
             (Some(state), None) => TraceItem::State(state.scene().map_err(error)?),
@@ -133,12 +134,18 @@ impl<R: BufRead> TraceReader<R> {
         self.last = match (self.last, &item) {
             (Last::Header | Last::Action, TraceItem::State(_)) => Last::State,
             (Last::State, TraceItem::Action(_)) => Last::Action,
-            (Last::Header, TraceItem::Action(_)) => return Err(error("there is no state before the first action")),
+            (Last::Header, TraceItem::Action(_)) => {
+                let hint = "Record the state before the first action too.";
+                return Err(error("there is no state before the first action").with_hint(hint.to_owned()));
+            }
             (Last::Action, TraceItem::Action(_)) => {
-                return Err(error("there is no state between this action and the one before"));
+                let what = "there is no state between this action and the one before";
+                return Err(error(what).with_hint(AFTER_EVERY_ACTION.to_owned()));
             }
             (Last::State, TraceItem::State(_)) => {
-                return Err(error("there is no action between this state and the one before"));
+                let hint = "Record the action between them, or leave out one of the states.";
+                let what = "there is no action between this state and the one before";
+                return Err(error(what).with_hint(hint.to_owned()));
             }
         };
         Ok(Some(item))
@@ -158,15 +165,22 @@ impl<R: BufRead> Iterator for TraceReader<R> {
     }
 }
 
+const AFTER_EVERY_ACTION: &str = "Record the state after every action.";
+
 fn parse<'a, T: serde::Deserialize<'a>>(path: &Path, line: &Line<'a>) -> Result<T, FileError> {
-    serde_json::from_str(line.text).map_err(|error| {
-        let what = match (error.is_eof(), line.complete) {
-            (true, false) => "the last line is incomplete".to_owned(),
-            (true, true) => "this line ends too early".to_owned(),
-            (false, _) => json::message(&error),
-        };
-        FileError { what, ..FileError::from_json(path, line.number, &error) }
-    })
+    serde_json::from_str(line.text).map_err(|error| malformed(path, line, &error))
+}
+
+fn malformed(path: &Path, line: &Line<'_>, error: &serde_json::Error) -> FileError {
+    let (what, hint) = match (error.is_eof(), line.complete) {
+        (true, false) => {
+            let hint = "The recording was cut off: remove this line, and an action that has no state after it.";
+            ("the last line is incomplete".to_owned(), Some(hint.to_owned()))
+        }
+        (true, true) => ("this line ends too early".to_owned(), None),
+        (false, _) => (json::message(error), json::hint(error, line.text)),
+    };
+    FileError { what, hint, ..FileError::from_json(path, line.number, error) }
 }
 
 /// Reads a trace file.
@@ -201,13 +215,16 @@ fn trace_from<R: BufRead>(path: &Path, mut reader: TraceReader<R>, parser: &mut 
                     if first != ty {
                         let (now, before) = (parser.hierarchy().name(ty), parser.hierarchy().name(first));
                         let what = format!("entity {name} is of type `{now}` here and of type `{before}` in line {at}");
-                        return Err(FileError::at_line(path, line, what));
+                        let hint = "An entity is of one type; what becomes another thing needs another name.";
+                        return Err(FileError::at_line(path, line, what).with_hint(hint.to_owned()));
                     }
                 }
                 state_line = line;
                 trace.states.push(share(&state, &mut names));
             }
             TraceItem::Action(action) => {
+                check_name(action.call.name.as_str())
+                    .map_err(|error| FileError::at_line(path, line, format!("the action's name: {error}")))?;
                 let state = trace.states.last().map(|state| &state.objects);
                 let missing = action.call.args.iter().find(|arg| !state.is_some_and(|s| s.contains_key(*arg)));
                 if let Some(missing) = missing {

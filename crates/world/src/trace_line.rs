@@ -101,12 +101,6 @@ pub fn write_trace(
     Ok(())
 }
 
-/// What is read before anything else of a header.
-#[derive(Deserialize)]
-pub(crate) struct FormatLine {
-    pub(crate) format: Option<String>,
-}
-
 /// A header, as it is read.
 #[derive(Deserialize)]
 pub(crate) struct HeaderLine {

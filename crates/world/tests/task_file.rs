@@ -60,7 +60,10 @@ fn goals_are_checked_against_state_and_model() {
     );
     assert_eq!(
         failed("free(block_1,block_1)"),
-        ("task.json: in the goal free(block_1,block_1): `free` takes 1 arguments, not 2".to_owned(), None)
+        (
+            "task.json: in the goal free(block_1,block_1): `free` takes 1 argument, not 2".to_owned(),
+            hint("Write `free(x1)`, with the names of entities.")
+        )
     );
     assert_eq!(
         failed("free(Block_1)"),

@@ -108,7 +108,7 @@ fn malformed_lines_are_refused_with_their_place() {
         ("{\"state\":{}}", "a.jsonl:2: this state has neither `entities` nor `objects`"),
         ("{\"state\":{\"entities\":[],\"objects\":{}}}", "a.jsonl:2: this state has both `entities` and `objects`"),
         ("{\"state\":7}", "a.jsonl:2:10: invalid type: integer `7`, expected a state"),
-        ("{\"state\" 7}", "a.jsonl:2:10: expected `:`"),
+        ("{\"state\" 7}", "a.jsonl:2:10: this is not JSON: expected `:`"),
         ("{\"state\":{\"entities\":[]}} x", "a.jsonl:2:27: nothing may follow after the end of the JSON text"),
         (
             "{\"state\":{\"entities\":[{\"id\":\"a\",\"type\":\"block\",\"attributes\":{\"x\":{}}}]}}",
