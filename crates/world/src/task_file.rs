@@ -70,7 +70,7 @@ impl TaskError {
             Self::UnknownPredicate { near, .. } | Self::UnknownObject { near, .. } => {
                 near.as_ref().map(|name| format!("Did you mean `{name}`?"))
             }
-            Self::NoState => Some("Give it a `state`, or run it in an environment.".to_owned()),
+            Self::NoState => Some("Give it a `state`, or run it in an environment (typelift run).".to_owned()),
             Self::Arity { atom, expected } => {
                 let args: Vec<String> = (1..=*expected).map(|i| format!("x{i}")).collect();
                 Some(format!("Write `{}({})`, with the names of entities.", atom.predicate, args.join(",")))

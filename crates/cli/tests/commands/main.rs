@@ -1,0 +1,19 @@
+//! The program as its users meet it: whole commands, with their exit codes, what they print, what they leave behind.
+
+mod acting;
+mod bad_models;
+mod bad_tasks;
+mod bad_traces;
+mod bad_types;
+mod common;
+mod confirming;
+mod environments;
+mod help;
+mod learning;
+mod limits;
+mod outputs;
+mod planning;
+mod recorded;
+mod simulator;
+mod strange;
+mod usage;
