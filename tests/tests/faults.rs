@@ -437,6 +437,9 @@ fn what_is_done_already_is_not_done_again() {
     let Ran { account, .. } = ran(&mut world, &fault("T1.1"), 0, &Options::default(), Experience::new());
     assert!(account.solved() && account.failures.is_empty(), "{account:?}");
     assert_eq!(account.actions, 3);
+    let steps: Vec<&str> =
+        account.plan.iter().flat_map(|plan| &plan.steps).map(|step| step.call.name.as_str()).collect();
+    assert_eq!(steps, ["PICK", "PLACE", "USE"], "no step that was not taken");
 }
 
 // The state machine, fed by hand. A saw cuts rods and planks; there are two saws, and a beam.
@@ -626,13 +629,16 @@ fn inputs_that_do_not_fit_change_nothing() {
     let mut it = ByHand::new(Options::default());
     let (whole, after) = (it.whole.clone(), it.cut.clone());
     assert_eq!(it.step(Input::Observation(after.clone())), Command::Reset, "nothing is believed before the start");
-    assert_eq!(it.step(Input::Approve), Command::Observe);
+    assert_eq!(it.step(Input::Approve), Command::Reset);
+    assert_eq!(it.step(Input::TimedOut), Command::Reset, "a slow reset is no initial state");
     let plan = it.proposed(Input::Observation(whole));
     assert_eq!(it.proposed(Input::Observation(after.clone())), plan);
     assert_eq!(it.proposed(Input::TimedOut), plan);
     assert_eq!(it.step(Input::Approve), Command::Act(cut("saw_1", "b")));
+    assert_eq!(it.step(Input::Approve), Command::Observe, "approved twice is not executed twice");
     let account = it.done(Input::Observation(after));
     assert!(account.solved());
+    assert_eq!(account.actions, 1);
     for input in [Input::Started, Input::Approve, Input::TimedOut] {
         assert_eq!(it.done(input), account, "what is over stays over");
     }

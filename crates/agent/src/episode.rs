@@ -20,7 +20,8 @@ use crate::turn::{Command, Input};
 #[derive(Debug)]
 enum Phase {
     New,
-    AwaitingState,
+    /// The first state, or the initial state again.
+    AwaitingReset,
     AwaitingApproval,
     AwaitingResult,
     /// The result of a step that timed out is about to be observed.
@@ -43,9 +44,13 @@ pub struct Episode {
     planned_with: ActionModel,
     plan: Plan,
     next_step: usize,
+    /// How many of the plan's steps were executed.
+    taken: usize,
     attempts: u32,
-    /// Plans that were begun, with the states they were begun in.
-    begun: Vec<(State, Plan)>,
+    /// The state that the plan was made for.
+    planned_in: State,
+    /// Plans that went as expected to their end and did not lead to the goal, with the states they were made for.
+    in_vain: Vec<(State, Plan)>,
     /// The current plan was made without strictness, although the options ask for it.
     relaxed: bool,
     /// Only bans count any more, not exclusions: nothing else was left.
@@ -74,8 +79,10 @@ impl Episode {
             state: State::default(),
             plan: Plan::default(),
             next_step: 0,
+            taken: 0,
             attempts: 0,
-            begun: Vec::new(),
+            planned_in: State::default(),
+            in_vain: Vec::new(),
             relaxed: false,
             bans_only: false,
             account: Account {
@@ -102,7 +109,8 @@ impl Episode {
         &self.planned_with
     }
 
-    /// Takes one input. One that does not fit the last command changes nothing and is answered by that command again.
+    /// Takes one input. One that does not fit the last command changes nothing and is answered by that command again; but
+    /// while the result of an action is awaited, by [`Command::Observe`], whose answer then is the result.
     ///
     /// # Errors
     /// [`ProposeError::Invalid`] if the planner errs.
@@ -111,14 +119,14 @@ impl Episode {
             (Phase::Over, _) => Ok(Command::Done(Box::new(self.account.clone()))),
             (_, Input::Stop) => Ok(self.end(Ending::Stopped, observer)),
             (Phase::New, _) => {
-                self.phase = Phase::AwaitingState;
+                self.phase = Phase::AwaitingReset;
                 Ok(Command::Reset)
             }
-            (Phase::AwaitingState, Input::Observation(state) | Input::Refused { state, .. }) => {
+            (Phase::AwaitingReset, Input::Observation(state)) => {
                 self.state = state;
                 self.propose(observer)
             }
-            (Phase::AwaitingState, _) => Ok(Command::Observe),
+            (Phase::AwaitingReset, _) => Ok(Command::Reset),
             (Phase::AwaitingApproval, Input::Approve) => self.advance(observer),
             (Phase::AwaitingApproval, Input::Reject { step, reason }) => {
                 self.next_step = step.clamp(1, self.plan.len()) - 1;
@@ -133,7 +141,8 @@ impl Episode {
                 self.phase = Phase::AwaitingLateState;
                 Ok(Command::Observe)
             }
-            (Phase::AwaitingResult, _) => Ok(Command::Act(self.plan.steps[self.next_step].call.clone())),
+            // Not the action again: it may be under way.
+            (Phase::AwaitingResult, _) => Ok(Command::Observe),
             (Phase::AwaitingLateState, Input::Observation(state) | Input::Refused { state, .. }) => {
                 self.judge(state, Some(StepResult::TimedOut), None, observer)
             }
@@ -152,8 +161,7 @@ impl Episode {
     fn propose(&mut self, observer: &mut dyn Observer) -> Result<Command, ProposeError> {
         if self.state.satisfies(&self.goal) {
             // It held from the start, or came about by a step that otherwise failed.
-            let taken = self.plan.len().min(if self.account.proposals == 0 { 0 } else { self.next_step + 1 });
-            self.account.plan = Some(Plan { steps: self.plan.steps[..taken].to_vec() });
+            self.account.plan = Some(Plan { steps: self.plan.steps[..self.taken].to_vec() });
             return Ok(self.end(Ending::Solved, observer));
         }
         if self.account.proposals >= self.options.max_proposals {
@@ -167,7 +175,7 @@ impl Episode {
         // A plan that did not lead to the goal from this very state, though no step of it failed, is not begun again.
         let is_known = |outcome: &Outcome| {
             let Outcome::Solved(plan) = outcome else { return false };
-            self.begun.iter().any(|(state, begun)| begun == plan && *state == self.state)
+            self.in_vain.iter().any(|(state, tried)| tried == plan && *state == self.state)
         };
         let circular = is_known(&proposal.outcome);
         while is_known(&proposal.outcome) {
@@ -176,10 +184,11 @@ impl Episode {
         let ending = match &proposal.outcome {
             Outcome::Unsolvable | Outcome::NoMorePlans | Outcome::GaveUp if circular => Ending::Circular,
             Outcome::Solved(plan) => {
-                self.begun.push((self.state.clone(), plan.clone()));
+                self.planned_in = self.state.clone();
                 self.plan = plan.clone();
                 self.planned_with = proposal.model;
                 self.next_step = 0;
+                self.taken = 0;
                 self.attempts = 0;
                 self.account.proposals += 1;
                 self.phase = Phase::AwaitingApproval;
@@ -205,13 +214,17 @@ impl Episode {
         let options = self.options.clone();
         let mut proposal = self.plan_once(&options, observer)?;
         if none(&proposal) && self.inherited.exclusions().next().is_some() {
-            let mut lifted = self.experience.clone();
-            lifted.lift_exclusions_of(&self.inherited);
-            if lifted != self.experience {
-                self.experience = lifted;
+            let before = self.experience.clone();
+            self.experience.lift_exclusions_of(&self.inherited);
+            let lifted = self.plan_once(&options, observer)?;
+            if none(&lifted) {
+                self.experience = before;
+            } else {
+                // What is excluded again from now on was learned in this task.
+                self.inherited = Experience::new();
                 self.account.lifted = true;
                 observer.event(&Event::Lifted);
-                proposal = self.plan_once(&options, observer)?;
+                proposal = lifted;
             }
         }
         if !none(&proposal) || options.restart || self.account.failures.is_empty() {
@@ -267,6 +280,7 @@ impl Episode {
                 self.account.plan = Some(self.plan.clone());
                 return Ok(self.end(Ending::Solved, observer));
             }
+            self.in_vain.push((self.planned_in.clone(), self.plan.clone()));
             return self.again(observer);
         }
         if !self.options.restart
@@ -304,6 +318,7 @@ impl Episode {
         observer: &mut dyn Observer,
     ) -> Result<Command, ProposeError> {
         self.account.actions += 1;
+        self.taken = self.next_step + 1;
         let step = &self.plan.steps[self.next_step];
         let given = self.planned_with.action(step.action.as_str()).is_some_and(|a| a.provenance == Provenance::Given);
         // A relaxed plan knows that not every effect will be a change.
@@ -371,7 +386,7 @@ impl Episode {
             observer.event(&Event::Excluded { object, call, reason: why.clone() });
         }
         if let Some(action) = expected {
-            self.experience.ban(Ban { call: action.call, adds: action.adds, deletes: action.deletes }, &why);
+            self.experience.ban(Ban::of(&action), &why);
         }
         self.account.failures.push(Failure {
             proposal: self.account.proposals,
@@ -400,7 +415,8 @@ impl Episode {
     /// Plans anew: from the initial state if the world is set back, else from where it is.
     fn again(&mut self, observer: &mut dyn Observer) -> Result<Command, ProposeError> {
         if self.options.restart && self.account.actions > 0 {
-            self.phase = Phase::AwaitingState;
+            self.phase = Phase::AwaitingReset;
+            self.taken = 0;
             return Ok(Command::Reset);
         }
         self.propose(observer)

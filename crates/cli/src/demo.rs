@@ -13,7 +13,7 @@ use typelift_kitchen::{Demonstration, Kitchen, KitchenTask, demonstrations, draw
 
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::limits::Clock;
+use crate::limits::{Clock, parse_whole};
 use crate::narrate::told;
 use crate::plan_text::{imagined_note, plan_size};
 use crate::show::{describe, source_name};
@@ -34,7 +34,7 @@ const SHOWN: [(&str, &str); 6] = [
 #[command(after_help = "Example:\n  typelift demo --seed 3")]
 pub(crate) struct Demo {
     /// The seed of the rooms
-    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse_whole, allow_negative_numbers = true)]
     seed: u64,
 }
 

@@ -1,4 +1,4 @@
-//! Exit codes, one for each way to end. Planning uses Fast Downward's.
+//! Exit codes, one for each way to end. Planning uses Fast Downward's. `docs/exit-codes.md` tells users of them.
 
 use std::process::ExitCode;
 
@@ -32,5 +32,54 @@ pub(crate) enum Exit {
 impl From<Exit> for ExitCode {
     fn from(exit: Exit) -> Self {
         Self::from(exit as u8)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ALL: [Exit; 11] = [
+        Exit::Success,
+        Exit::Unsolvable,
+        Exit::NotAchieved,
+        Exit::OutOfMemory,
+        Exit::OutOfTime,
+        Exit::BadInput,
+        Exit::Internal,
+        Exit::Unsupported,
+        Exit::Environment,
+        Exit::Usage,
+        Exit::Interrupted,
+    ];
+
+    /// What the document calls it. A new way to end does not compile until it has a name here.
+    fn name(exit: Exit) -> &'static str {
+        match exit {
+            Exit::Success => "success",
+            Exit::Unsolvable => "unsolvable",
+            Exit::NotAchieved => "not achieved",
+            Exit::OutOfMemory => "out of memory",
+            Exit::OutOfTime => "out of time",
+            Exit::BadInput => "bad input",
+            Exit::Internal => "internal",
+            Exit::Unsupported => "unsupported",
+            Exit::Environment => "environment failed",
+            Exit::Usage => "wrong usage",
+            Exit::Interrupted => "interrupted",
+        }
+    }
+
+    #[test]
+    fn the_document_lists_every_code_and_no_other() {
+        let rows = include_str!("../../../docs/exit-codes.md").lines().filter_map(|line| {
+            let mut cells = line.strip_prefix('|')?.split('|').map(str::trim);
+            let code = cells.next()?.parse::<u8>().ok()?;
+            let (name, when) = (cells.next()?, cells.next()?);
+            assert!(when.ends_with('.'), "{code}: {when}");
+            Some((code, name.to_owned()))
+        });
+        let expected = ALL.map(|exit| (exit as u8, name(exit).to_owned()));
+        assert_eq!(rows.collect::<Vec<_>>(), expected);
     }
 }

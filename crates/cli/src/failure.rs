@@ -52,7 +52,7 @@ impl Failure {
 impl From<FileError> for Failure {
     fn from(error: FileError) -> Self {
         let exit = if error.unsupported { Exit::Unsupported } else { Exit::BadInput };
-        Self { exit, message: error.render(), hint: error.hint }
+        Self { exit, message: error.render().trim_end().to_owned(), hint: error.hint }
     }
 }
 
@@ -65,8 +65,9 @@ impl From<io::Error> for Failure {
 
 impl From<NameCollision> for Failure {
     fn from(error: NameCollision) -> Self {
-        Self::bad_input(error)
-            .with_hint("PDDL does not tell upper from lower case: rename one of the two, or --ignore it.")
+        let or = if error.kind == "predicate" { ", or --ignore what one comes from" } else { "" };
+        let hint = format!("PDDL knows lower case only, and few signs: rename one of the two{or}.");
+        Self::bad_input(error).with_hint(hint)
     }
 }
 

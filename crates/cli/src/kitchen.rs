@@ -16,6 +16,7 @@ use typelift_kitchen::{
 
 use crate::exit::Exit;
 use crate::failure::{Failure, or_one_of};
+use crate::limits::parse_whole;
 use crate::style::{BAD, GOOD, count};
 
 /// The built-in kitchen simulator
@@ -34,7 +35,7 @@ enum Command {
         /// The folder to write to; made if it is not there
         folder: PathBuf,
         /// The seed of the rooms
-        #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true)]
+        #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse_whole, allow_negative_numbers = true)]
         seed: u64,
     },
     /// Be the kitchen for somebody else: speak env/1 on standard input and output
@@ -56,7 +57,7 @@ enum Command {
         /// A task's or a fault's name; the default room if left out
         task: Option<String>,
         /// The seed of the room
-        #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true)]
+        #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse_whole, allow_negative_numbers = true)]
         seed: u64,
     },
 }

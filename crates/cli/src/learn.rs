@@ -245,6 +245,8 @@ fn print_counts(out: &mut impl Write, dataset: &Dataset, learned: &Learned) -> R
     for (reason, (times, witnesses)) in &learned.model.evidence.unexplained {
         let reason = match reason {
             Unexplained::ObjectsChanged => "entities appeared or vanished",
+            Unexplained::PartlyObserved => "something about their entities is unknown",
+            Unexplained::TooLarge => "too many entities take part",
             Unexplained::TooSymmetric => "too many entities changed alike to tell them apart",
         };
         let places: Vec<String> = witnesses.iter().map(|w| format!("{} step {}", w.file, w.step)).collect();

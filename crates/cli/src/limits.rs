@@ -31,10 +31,10 @@ pub(crate) struct Limits {
     #[arg(long, value_name = "TIME", value_parser = parse_duration, allow_negative_numbers = true)]
     time_limit: Option<Duration>,
     /// Expand at most this many nodes in one search
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = parse_whole, allow_negative_numbers = true)]
     max_expansions: Option<u64>,
     /// Hold at most this many megabytes in grounding and search, by typelift's own count
-    #[arg(long, value_name = "MB", allow_negative_numbers = true)]
+    #[arg(long, value_name = "MB", value_parser = parse_whole, allow_negative_numbers = true)]
     memory_limit: Option<u64>,
 }
 
@@ -52,6 +52,11 @@ pub(crate) fn parse_duration(text: &str) -> Result<Duration, String> {
     };
     let number: f64 = number.parse().map_err(|_| "write a number of seconds, or 500ms, 30s, 5m or 1h".to_owned())?;
     Duration::try_from_secs_f64(number * factor).map_err(|e| e.to_string())
+}
+
+/// Reads a number as every option takes them.
+pub(crate) fn parse_whole(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|_| format!("write a whole number from 0 to {}", u64::MAX))
 }
 
 /// Set by Ctrl-C and by a request to terminate.

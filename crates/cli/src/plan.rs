@@ -129,17 +129,19 @@ impl Plan {
         };
         self.write_plans(&plans, &proposal.model, &task)?;
         let exit = if plans.is_empty() { exit_of(&last) } else { Exit::Success };
-        let explanation = plans.is_empty().then(|| proposal.explain());
+        // Of a search that was ended early nothing can be said.
+        let searched = matches!(last, Outcome::Unsolvable | Outcome::NoMorePlans);
+        let explanation = (plans.is_empty() && searched).then(|| proposal.explain());
         if self.json {
             let answer = answer(&last, &plans, &proposal, explanation.as_ref(), clock.elapsed() - begun);
             writeln!(out, "{}", serde_json::to_string_pretty(&answer).unwrap_or_default())?;
             return Ok(exit);
         }
         out.flush()?;
-        match explanation {
-            Some(explanation) => self.report_none(&last, &explanation, &model, &task, &budget),
-            None if !quiet => self.report_end(&last, plans.len()),
-            None => {}
+        if plans.is_empty() {
+            self.report_none(&last, explanation.as_ref(), &model, &task, &budget);
+        } else if !quiet {
+            self.report_end(&last, plans.len());
         }
         Ok(exit)
     }
@@ -204,18 +206,14 @@ impl Plan {
     fn report_none(
         &self,
         outcome: &Outcome,
-        explanation: &Explanation,
+        explanation: Option<&Explanation>,
         model: &ActionModel,
         task: &Task,
         budget: &Budget,
     ) {
-        match outcome {
-            Outcome::Unsolvable | Outcome::NoMorePlans => {
-                for line in explanation.to_string().lines() {
-                    anstream::eprintln!("{BAD}no plan{BAD:#}: {line}");
-                }
-            }
-            other => anstream::eprintln!("{BAD}no plan{BAD:#}: {}", ending(other)),
+        let why = explanation.map_or_else(|| ending(outcome).to_owned(), ToString::to_string);
+        for line in why.lines() {
+            anstream::eprintln!("{BAD}no plan{BAD:#}: {line}");
         }
         if self.imagine || *outcome != Outcome::Unsolvable {
             return;

@@ -19,7 +19,7 @@ use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::{read_model, read_run_task, task_name};
 use crate::goal_check::GoalCheck;
-use crate::limits::{Clock, Interrupt, Limits, parse_duration};
+use crate::limits::{Clock, Interrupt, Limits, parse_duration, parse_whole};
 use crate::narrate::Narrator;
 use crate::plan_text::numbered_steps;
 use crate::style::HEAD;
@@ -60,7 +60,7 @@ pub(crate) struct Run {
     #[arg(long, value_name = "FILE")]
     types: Option<PathBuf>,
     /// The seed that the environment is reset with, instead of the task's
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = parse_whole, allow_negative_numbers = true)]
     seed: Option<u64>,
     /// Imagine actions for goals that cannot be reached with the learned ones
     #[arg(long)]
@@ -75,7 +75,7 @@ pub(crate) struct Run {
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     retries: Option<u32>,
     /// Propose at most this many plans a task
-    #[arg(long, value_name = "N", default_value_t = 12, allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", default_value_t = 12, value_parser = parse_whole, allow_negative_numbers = true)]
     max_proposals: u64,
     /// Use an action also where some of its effects hold already
     #[arg(long)]
@@ -102,7 +102,9 @@ enum Operation {
 
 fn parse_timeout(text: &str) -> Result<(Operation, Duration), String> {
     let (operation, time) = text.split_once('=').ok_or("write for example hello=60s,act=10m")?;
-    Ok((Operation::from_str(operation, true)?, parse_duration(time)?))
+    let operation = Operation::from_str(operation, true)
+        .map_err(|_| format!("there is no `{operation}`; there are hello, reset, observe, act and close"))?;
+    Ok((operation, parse_duration(time)?))
 }
 
 /// Which plans are to be confirmed.
@@ -178,7 +180,17 @@ impl Run {
 
     fn open(&self, interrupt: &Interrupt) -> Result<Box<dyn World>, Failure> {
         let Some(command) = &self.env else { return Ok(Box::new(Kitchen::new())) };
-        let bridge = Bridge::spawn(command, typelift::bridge::Options::default(), |line| anstream::eprintln!("{line}"));
+        let mut limits = typelift::bridge::Options::default();
+        for &(operation, limit) in &self.env_timeout {
+            match operation {
+                Operation::Hello => limits.hello = limit,
+                Operation::Reset => limits.reset = limit,
+                Operation::Observe => limits.observe = limit,
+                Operation::Act => limits.act = limit,
+                Operation::Close => limits.close = limit,
+            }
+        }
+        let bridge = Bridge::spawn(command, limits, |line| anstream::eprintln!("{line}"));
         let bridge = bridge.map_err(WorldError::from)?;
         let stopper = bridge.stopper();
         interrupt.on_raised(move || stopper.stop());

@@ -23,8 +23,8 @@ mod substitute;
 
 use std::collections::{BTreeSet, VecDeque};
 
-use typelift_model::{ActionModel, ActionSchema, Budget, GroundAtom, Symbol, Task, TypeId, schema_name};
-use typelift_plan::{Cut, GroundTask, Restrictions, TieOrder, ground};
+use typelift_model::{ActionModel, ActionSchema, Budget, GroundAtom, HashMap, Symbol, Task, TypeId, UniqueNames};
+use typelift_plan::{Cut, Restrictions, TieOrder, ground};
 
 pub use guard::Guard;
 
@@ -61,7 +61,8 @@ struct Context<'a> {
     model: &'a ActionModel,
     task: &'a Task,
     restrictions: &'a Restrictions,
-    ground: &'a GroundTask,
+    /// The reachable atoms of each predicate.
+    reached: HashMap<Symbol, Vec<GroundAtom>>,
 }
 
 impl Context<'_> {
@@ -77,10 +78,10 @@ impl Context<'_> {
 /// Algorithm 2: actions for the goal atoms that cannot be reached; none if all can.
 ///
 /// Work goes through a queue of unreachable atoms, each once. The cost is that of one grounding, plus, for each atom,
-/// a look at every action.
+/// a look at every action, and at the instances of its unreachable preconditions.
 ///
 /// # Errors
-/// [`Cut`] if the budget ends grounding.
+/// [`Cut`] if the budget ends it.
 pub fn imagine(
     model: &ActionModel,
     task: &Task,
@@ -89,12 +90,19 @@ pub fn imagine(
     budget: &Budget,
 ) -> Result<Imagination, Cut> {
     let ground = ground(model, task, restrictions, TieOrder::default(), budget)?;
-    let context = Context { model, task, restrictions, ground: &ground };
+    let mut reached: HashMap<Symbol, Vec<GroundAtom>> = HashMap::default();
+    for atom in ground.reached_facts().map(|fact| ground.atom(fact)) {
+        reached.entry(atom.predicate.clone()).or_default().push(atom);
+    }
+    let context = Context { model, task, restrictions, reached };
     let mut queue: VecDeque<GroundAtom> = ground.unreachable_goals().iter().cloned().collect();
     let mut met: BTreeSet<GroundAtom> = queue.iter().cloned().collect();
     let mut imagination = Imagination::default();
     let mut imagined = Vec::new();
     while let Some(atom) = queue.pop_front() {
+        if let Some(stop) = budget.stopped() {
+            return Err(Cut::Stopped(stop));
+        }
         for potential in potential::get_potential_actions(model, &atom) {
             let Some(proposal) = create::create_imagined_action(&context, &potential) else { continue };
             if guard::gives_up(options.guard, &context, &proposal) {
@@ -112,7 +120,7 @@ pub fn imagine(
         }
         imagination.unreachable.push(atom);
     }
-    let mut names = Names::of(model);
+    let mut names = UniqueNames::new(model.actions.iter().map(|action| action.name.clone()));
     let mut known: Vec<ActionSchema> = Vec::new();
     for action in imagined {
         add_if_new(action, model, &mut known, &mut names);
@@ -128,7 +136,7 @@ pub fn imagine(
 }
 
 /// Names and keeps an action, unless one that does the same is there.
-fn add_if_new(mut action: ActionSchema, model: &ActionModel, known: &mut Vec<ActionSchema>, names: &mut Names) {
+fn add_if_new(mut action: ActionSchema, model: &ActionModel, known: &mut Vec<ActionSchema>, names: &mut UniqueNames) {
     let same = |other: &ActionSchema| {
         other.call == action.call
             && other.parameters.iter().map(|p| p.ty).eq(action.parameters.iter().map(|p| p.ty))
@@ -136,31 +144,7 @@ fn add_if_new(mut action: ActionSchema, model: &ActionModel, known: &mut Vec<Act
             && other.effects == action.effects
     };
     if !model.actions.iter().chain(known.iter()).any(same) {
-        action.name = names.name(&action, model);
+        action.name = names.of_action(&action, model);
         known.push(action);
-    }
-}
-
-/// The names in use.
-struct Names(BTreeSet<Symbol>);
-
-impl Names {
-    fn of(model: &ActionModel) -> Self {
-        Self(model.actions.iter().map(|action| action.name.clone()).collect())
-    }
-
-    /// The readable name of an action, numbered on ties.
-    fn name(&mut self, action: &ActionSchema, model: &ActionModel) -> Symbol {
-        let types = action.parameters.iter().map(|p| (model.hierarchy.name(p.ty), model.is_actor(p.ty)));
-        let base = schema_name(&action.call.name, types);
-        let mut name = Symbol::new(&base);
-        for number in 2.. {
-            if !self.0.contains(&name) {
-                break;
-            }
-            name = Symbol::from(format!("{base}-{number}"));
-        }
-        self.0.insert(name.clone());
-        name
     }
 }

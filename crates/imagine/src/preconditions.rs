@@ -7,21 +7,39 @@ use typelift_model::{GroundAtom, LiftedAtom, Symbol, Term, TypeId};
 use crate::Context;
 use crate::create::Proposal;
 
-/// For each precondition of which no instance is reachable, all its instances. Bound parameters stay bound; others
-/// range over the objects of their original type, or of their new type if there are none.
+/// Instances of one precondition that are considered at most, the first in order.
+const INSTANCE_BOUND: usize = 10_000;
+
+/// For each precondition of which no instance is reachable, all its instances, up to [`INSTANCE_BOUND`]. Bound
+/// parameters stay bound; others range over the objects of their original type, or of their new type if there are none.
 pub(crate) fn get_unreachable_preconds(context: &Context<'_>, proposal: &Proposal<'_>) -> Vec<GroundAtom> {
     let choices = choices(context, proposal);
     let mut unreachable = Vec::new();
     for precondition in proposal.schema.positive_preconditions() {
-        let instances = instances(precondition, proposal, &choices);
-        if !instances.iter().any(|atom| context.ground.reaches(atom)) {
-            unreachable.extend(instances);
+        let reached = context.reached.get(&precondition.predicate).into_iter().flatten();
+        if !reached.into_iter().any(|atom| is_instance(atom, precondition, proposal, &choices)) {
+            unreachable.extend(instances(precondition, proposal, &choices));
         }
     }
     unreachable
 }
 
-/// The objects that may take each parameter's place.
+/// Whether an atom is an instance of a lifted one under the choices.
+fn is_instance(atom: &GroundAtom, lifted: &LiftedAtom, proposal: &Proposal<'_>, choices: &[Vec<&Symbol>]) -> bool {
+    let mut binding: Vec<Option<&Symbol>> = vec![None; choices.len()];
+    let fits = atom.arity() == lifted.arity()
+        && lifted.args.iter().zip(&atom.args).all(|(term, object)| match term {
+            Term::Const(name) => name == object,
+            Term::Param(p) => {
+                let chosen = choices[*p as usize].binary_search(&object).is_ok();
+                chosen && *binding[*p as usize].get_or_insert(object) == object
+            }
+        });
+    let bound = |p: u32| binding[p as usize];
+    fits && proposal.schema.distinct.iter().all(|&(a, b)| bound(a).is_none() || bound(a) != bound(b))
+}
+
+/// The objects that may take each parameter's place, sorted.
 fn choices<'a>(context: &'a Context<'_>, proposal: &'a Proposal<'a>) -> Vec<Vec<&'a Symbol>> {
     let hierarchy = &context.model.hierarchy;
     let bound: BTreeSet<&Symbol> = proposal.binding.iter().copied().flatten().collect();
@@ -61,6 +79,7 @@ fn instances(atom: &LiftedAtom, proposal: &Proposal<'_>, choices: &[Vec<&Symbol>
                 let fitting = choices[parameter].iter().filter(|object| differs(binding, object));
                 fitting.map(|object| binding.iter().copied().chain([*object]).collect()).collect::<Vec<Vec<_>>>()
             })
+            .take(INSTANCE_BOUND)
             .collect();
     }
     let place = |p: u32| parameters.iter().position(|&q| q == p as usize).unwrap_or_default();

@@ -12,7 +12,7 @@ use crate::snapshot_error::SnapshotError;
 /// What to set up, as JSON: `{"items":["plate","bread","bread"],"filler":"novel","broken":["cutboard_1"]}`, or
 /// `{"state":…}` with a snapshot. Everything may be left out; the default is a plate and demonstrated food.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "an object")]
 pub struct Scenario {
     /// A snapshot to start from. It says where everything is, so `items` and `filler` have no place beside it.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -7,14 +7,19 @@
 //! order; the other entities of the effect in the way that makes the lifted effect smallest and, where several do
 //! (automorphisms), the lifted pre-state.
 //!
-//! The labelling refines colour classes by type and by the effect's atoms, then tries the orders that are left,
-//! skipping entities that can be swapped without any difference. If more than [`LEAF_BOUND`] orders are left, the
-//! transition is reported as too symmetric rather than labelled by chance.
+//! The labelling refines colour classes by type and by the effect's atoms; if the effect does not tell the entities of
+//! a class apart at all, also by the pre-state's. Then it tries the orders that are left, entities that can be swapped
+//! without any difference in one order only. If more than [`LEAF_BOUND`] orders are left, the transition is reported as
+//! too symmetric rather than labelled by chance.
+//!
+//! A transition in which an atom over its parameters is unknown is reported, and nothing is learned from it: to take the
+//! atom for false would drop preconditions, or weaken the effect, without a counterexample.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use typelift_model::{
-    ClusterKey, Evidence, GroundAtom, Hierarchy, LiftedAtom, NegativeKey, Symbol, Term, TypeId, Unexplained,
+    ClusterKey, Evidence, GroundAtom, Hierarchy, LiftedAtom, MOST_PARAMETERS, NegativeKey, Symbol, Term, TypeId,
+    Unexplained,
 };
 use typelift_world::Transition;
 
@@ -33,11 +38,12 @@ pub fn observe(evidence: &mut Evidence, transition: &Transition<'_>, hierarchy: 
     let adds: Vec<&GroundAtom> = before.added(after).collect();
     let deletes: Vec<&GroundAtom> = before.deleted(after).collect();
 
-    let mut objects: Vec<&Symbol> = Vec::new();
-    for object in call.args.iter().chain(adds.iter().chain(&deletes).flat_map(|atom| &atom.args)) {
-        if !objects.contains(&object) {
-            objects.push(object);
-        }
+    let mut met: BTreeSet<&Symbol> = BTreeSet::new();
+    let mentioned = call.args.iter().chain(adds.iter().chain(&deletes).flat_map(|atom| &atom.args));
+    let objects: Vec<&Symbol> = mentioned.filter(|object| met.insert(object)).collect();
+    if objects.len() > MOST_PARAMETERS {
+        evidence.add_unexplained(Unexplained::TooLarge, witness);
+        return;
     }
     let named = call.args.iter().collect::<BTreeSet<_>>().len();
     let types: Vec<TypeId> = objects.iter().map(|object| before.objects[*object]).collect();
@@ -47,6 +53,10 @@ pub fn observe(evidence: &mut Evidence, transition: &Transition<'_>, hierarchy: 
 
     let index: BTreeMap<&Symbol, u32> = objects.iter().copied().zip(0..).collect();
     let lift = |atom: &GroundAtom| LiftedAtom::lift(atom, |object| index.get(object).copied());
+    if before.unknown.iter().chain(&after.unknown).any(|atom| lift(atom).is_some()) {
+        evidence.add_unexplained(Unexplained::PartlyObserved, witness);
+        return;
+    }
     let state: Vec<LiftedAtom> = before.atoms.iter().filter_map(lift).collect();
 
     if adds.is_empty() && deletes.is_empty() {
@@ -101,33 +111,55 @@ impl Effect {
 /// The order of objects (those named by the call first, as they are) that makes the relabelled effect smallest,
 /// with that effect; `None` beyond [`LEAF_BOUND`].
 fn canonical_form(effect: &Effect, initial: &[String], named: usize) -> Option<(Vec<usize>, Effect)> {
-    let classes = refine(effect, initial);
-    let n = classes.len();
-    let mut sorted: Vec<usize> = (0..n).collect();
+    let mut classes = refine(ranked(initial), &[('+', &effect.adds), ('-', &effect.deletes)]);
+    let change = Effect { state: Vec::new(), ..effect.clone() };
+    if swap_classes(&change, &classes) == classes {
+        // Any order gives the same effect: the pre-state alone decides, and may tell apart.
+        classes = refine(classes, &[('+', &effect.adds), ('-', &effect.deletes), (' ', &effect.state)]);
+    }
+    let swaps = swap_classes(effect, &classes);
+    let mut sorted: Vec<usize> = (0..classes.len()).collect();
     sorted.sort_by_key(|&i| (classes[i], i));
-    let identity: Vec<u32> = (0..n as u32).collect();
+    let mut search = Labelling { effect, sorted: &sorted, classes: &classes, swaps: &swaps, leaves: 0, best: None };
+    let complete = search.extend(&mut sorted[..named].to_vec());
+    search.best.filter(|_| complete).map(|(lifted, order)| (order, lifted))
+}
+
+/// Splits classes into those whose members can be swapped, any two of them, without any difference; numbered in the
+/// order of the classes. Two transpositions that share an object make up the third, so one representative each will do.
+fn swap_classes(effect: &Effect, classes: &[usize]) -> Vec<usize> {
+    let identity: Vec<u32> = (0..classes.len() as u32).collect();
     let plain = effect.relabelled(&identity);
     let swappable = |a: usize, b: usize| {
         let mut swap = identity.clone();
         swap.swap(a, b);
         effect.relabelled(&swap) == plain
     };
-    let mut search = Labelling { effect, sorted: &sorted, classes: &classes, leaves: 0, best: None };
-    let complete = search.extend(&mut sorted[..named].to_vec(), &swappable);
-    search.best.filter(|_| complete).map(|(lifted, order)| (order, lifted))
+    let mut representatives: Vec<(usize, usize)> = Vec::new();
+    let mut split: Vec<(usize, usize)> = Vec::with_capacity(classes.len());
+    for (object, &class) in classes.iter().enumerate() {
+        let known = representatives.iter().position(|&(c, r)| c == class && swappable(r, object));
+        let place = known.unwrap_or_else(|| {
+            representatives.push((class, object));
+            representatives.len() - 1
+        });
+        split.push((class, place));
+    }
+    ranked(&split)
 }
 
 struct Labelling<'a> {
     effect: &'a Effect,
     sorted: &'a [usize],
     classes: &'a [usize],
+    swaps: &'a [usize],
     leaves: usize,
     best: Option<(Effect, Vec<usize>)>,
 }
 
 impl Labelling<'_> {
     /// Extends `order` in every way that respects the classes; `false` if there are too many.
-    fn extend(&mut self, order: &mut Vec<usize>, swappable: &impl Fn(usize, usize) -> bool) -> bool {
+    fn extend(&mut self, order: &mut Vec<usize>) -> bool {
         let at = order.len();
         if at == self.sorted.len() {
             self.leaves += 1;
@@ -139,19 +171,17 @@ impl Labelling<'_> {
             if self.best.as_ref().is_none_or(|(best, _)| candidate < *best) {
                 self.best = Some((candidate, order.clone()));
             }
-            return self.leaves < LEAF_BOUND;
+            return self.leaves <= LEAF_BOUND;
         }
         let class = self.classes[self.sorted[at]];
-        let choices: Vec<usize> =
-            self.sorted.iter().copied().filter(|&o| self.classes[o] == class && !order.contains(&o)).collect();
-        let mut tried: Vec<usize> = Vec::new();
-        for object in choices {
-            if tried.iter().any(|&other| swappable(other, object)) {
+        let start = self.sorted.partition_point(|&object| self.classes[object] < class);
+        let mut tried: BTreeSet<usize> = BTreeSet::new();
+        for &object in self.sorted[start..].iter().take_while(|&&object| self.classes[object] == class) {
+            if order[start..].contains(&object) || !tried.insert(self.swaps[object]) {
                 continue;
             }
-            tried.push(object);
             order.push(object);
-            let within_bound = self.extend(order, swappable);
+            let within_bound = self.extend(order);
             order.pop();
             if !within_bound {
                 return false;
@@ -162,20 +192,23 @@ impl Labelling<'_> {
 }
 
 /// Colour refinement: the class of each object, numbered in an order that depends on structure alone. Starts from
-/// the given colours and tells objects apart by the signed effect atoms they occur in, until nothing changes.
-fn refine(effect: &Effect, initial: &[String]) -> Vec<usize> {
-    let mut classes = ranked(initial);
+/// the given classes and tells objects apart by the marked atoms they occur in, until nothing changes.
+fn refine(mut classes: Vec<usize>, marked: &[(char, &Vec<LiftedAtom>)]) -> Vec<usize> {
     loop {
-        let colours: Vec<_> = (0..classes.len())
-            .map(|object| {
-                let mut seen: Vec<String> = Vec::new();
-                for (sign, atoms) in [('+', &effect.adds), ('-', &effect.deletes)] {
-                    for atom in atoms.iter().filter(|atom| atom.params().any(|p| p as usize == object)) {
-                        seen.push(occurrence(sign, atom, object, &classes));
-                    }
+        let mut seen: Vec<Vec<String>> = vec![Vec::new(); classes.len()];
+        for (mark, atoms) in marked {
+            for atom in *atoms {
+                for object in atom.params().map(|p| p as usize).collect::<BTreeSet<_>>() {
+                    seen[object].push(occurrence(*mark, atom, object, &classes));
                 }
+            }
+        }
+        let colours: Vec<(usize, Vec<String>)> = classes
+            .iter()
+            .zip(seen)
+            .map(|(&class, mut seen)| {
                 seen.sort_unstable();
-                (classes[object], seen)
+                (class, seen)
             })
             .collect();
         let refined = ranked(&colours);

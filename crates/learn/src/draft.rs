@@ -1,10 +1,10 @@
 //! CreateAction (Algorithm 1, line 4): an action from a cluster, and its final, named form.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use typelift_model::{
     ActionModel, ActionSchema, ClusterKey, Effect, Evidence, Hierarchy, LiftedAtom, LiftedCall, Literal, Parameter,
-    Provenance, Source, Symbol, Term, TypeId, schema_name,
+    Provenance, Source, Symbol, Term, TypeId, UniqueNames,
 };
 
 use crate::LearnError;
@@ -78,15 +78,10 @@ impl Draft {
 
 /// Names the actions by call and types, numbered on ties, and sorts them by name.
 pub(crate) fn name_actions(model: &mut ActionModel) {
-    let (hierarchy, actor) = (&model.hierarchy, model.actor);
-    let is_actor = |ty| actor.is_some_and(|actor| hierarchy.is_a(ty, actor));
-    let mut used: BTreeMap<String, usize> = BTreeMap::new();
-    for action in &mut model.actions {
-        let types = action.parameters.iter().map(|p| (hierarchy.name(p.ty), is_actor(p.ty)));
-        let name = schema_name(&action.call.name, types);
-        let count = used.entry(name.clone()).or_default();
-        *count += 1;
-        action.name = if *count == 1 { Symbol::from(name) } else { Symbol::from(format!("{name}-{count}")) };
+    let mut names = UniqueNames::default();
+    let named: Vec<Symbol> = model.actions.iter().map(|action| names.of_action(action, model)).collect();
+    for (action, name) in model.actions.iter_mut().zip(named) {
+        action.name = name;
     }
     model.actions.sort_by(|a, b| a.name.cmp(&b.name));
 }

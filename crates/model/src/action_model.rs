@@ -1,6 +1,6 @@
 //! The learned model: types, predicates and actions, with the evidence they rest on.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::{
     ActionSchema, Evidence, Hierarchy, NameCollision, ParseConfig, PddlNames, Provenance, Replacement, Symbol, TypeId,
@@ -80,7 +80,7 @@ impl ActionModel {
             actor = Some(actor.map_or(ty, |known| h.lca(known, ty)));
         }
         let actor = actor?;
-        let calls: std::collections::BTreeSet<&Symbol> = self.actions.iter().map(|a| &a.call.name).collect();
+        let calls: BTreeSet<&Symbol> = self.actions.iter().map(|a| &a.call.name).collect();
         if calls.len() < 2 {
             return None;
         }
@@ -93,7 +93,7 @@ impl ActionModel {
 }
 
 /// The readable name of an action: its call's name and its parameters' types, without the actor's.
-/// Names that come out equal are told apart by whoever collects them.
+/// Names that come out equal are told apart by [`UniqueNames`].
 pub fn schema_name<'a>(call: &Symbol, types: impl IntoIterator<Item = (&'a Symbol, bool)>) -> String {
     let mut name = call.as_str().to_owned();
     for (ty, is_actor) in types {
@@ -103,6 +103,32 @@ pub fn schema_name<'a>(call: &Symbol, types: impl IntoIterator<Item = (&'a Symbo
         }
     }
     name
+}
+
+/// Gives actions readable names, each once.
+#[derive(Debug, Clone, Default)]
+pub struct UniqueNames(BTreeSet<Symbol>);
+
+impl UniqueNames {
+    /// With names that are in use already.
+    pub fn new(used: impl IntoIterator<Item = Symbol>) -> Self {
+        Self(used.into_iter().collect())
+    }
+
+    /// The [readable name](schema_name) of an action of this model, numbered if it is in use.
+    pub fn of_action(&mut self, action: &ActionSchema, model: &ActionModel) -> Symbol {
+        let types = action.parameters.iter().map(|p| (model.hierarchy.name(p.ty), model.is_actor(p.ty)));
+        let base = schema_name(&action.call.name, types);
+        let mut name = Symbol::new(&base);
+        for number in 2.. {
+            if !self.0.contains(&name) {
+                break;
+            }
+            name = Symbol::from(format!("{base}-{number}"));
+        }
+        self.0.insert(name.clone());
+        name
+    }
 }
 
 /// `cuttingtool for cutboard, fruit for carrot`: what was put in place of what, each pair once.

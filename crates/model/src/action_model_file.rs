@@ -70,6 +70,8 @@ pub enum ModelFileError {
 #[derive(Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub(crate) struct ModelFile {
+    /// The format and its version.
+    #[cfg_attr(feature = "schema", schemars(extend("const" = MODEL_FORMAT)))]
     pub(crate) format: String,
     /// `[child, parent]` pairs, parents first.
     pub(crate) types: Vec<(Symbol, Symbol)>,

@@ -7,14 +7,12 @@ use serde::Deserialize;
 use crate::action_model_file::{ActionFile, EffectFile, LiteralFile, ModelFile, ProvenanceFile, SourceFile};
 use crate::{
     ActionModel, ActionSchema, ClusterKey, Effect, Evidence, Hierarchy, LiftedAtom, LiftedCall, Literal, MODEL_FORMAT,
-    ModelFileError, Parameter, PreStates, Provenance, Replacement, Source, Symbol, Term, TypeId, check_name,
-    json_message,
+    MOST_PARAMETERS, ModelFileError, Parameter, PreStates, Provenance, Replacement, Source, Symbol, Term, TypeId,
+    check_name, json_message,
 };
 
-/// Parameters that an action may have, and arguments a predicate: far more than anybody writes.
-const MOST_PARAMETERS: usize = 100;
 /// Preconditions that an action may have.
-const MOST_PRECONDITIONS: usize = 2000;
+const MOST_PRECONDITIONS: usize = 40_000;
 
 impl ActionModel {
     /// Reads a model file.
@@ -27,6 +25,7 @@ impl ActionModel {
             ModelFileError::Json { line: e.line(), column: e.column(), message }
         };
         #[derive(Deserialize)]
+        #[serde(expecting = "a model")]
         struct Head {
             format: Option<String>,
         }
@@ -227,6 +226,7 @@ fn read_action(
     effects.sort_unstable();
     let mut preconditions: Vec<Literal> = file.preconditions.into_iter().map(read_literal).collect();
     preconditions.sort_unstable();
+    preconditions.dedup();
     let literals = effects.iter().flat_map(|e| e.condition.iter().chain([&e.literal])).chain(&preconditions);
     let params = literals.flat_map(|l| l.atom.params());
     let called = args.iter().filter_map(|t| if let Term::Param(i) = t { Some(*i) } else { None });

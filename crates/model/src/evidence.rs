@@ -12,6 +12,9 @@ use crate::{LiftedAtom, Symbol};
 
 /// Different pre-states that one cluster keeps apart; beyond it only how often each atom held.
 pub const PRE_STATE_BOUND: usize = 256;
+/// Parameters that an action may have, and arguments a predicate: far more than anybody writes. Distinct parameters are
+/// compared pairwise, so there is a bound.
+pub const MOST_PARAMETERS: usize = 256;
 /// Witnesses kept of each cluster: the smallest by file and step.
 pub const WITNESS_BOUND: usize = 3;
 
@@ -242,6 +245,10 @@ pub struct NegativeKey {
 pub enum Unexplained {
     /// Entities appeared or vanished.
     ObjectsChanged,
+    /// An atom over the transition's entities is unknown.
+    PartlyObserved,
+    /// More entities take part than [`MOST_PARAMETERS`].
+    TooLarge,
     /// More entities of the effect than can be told apart within bounds.
     TooSymmetric,
 }

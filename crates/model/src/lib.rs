@@ -32,12 +32,13 @@ pub use action::{
     ActionSchema, Effect, GroundAction, GroundCall, InstantiateError, LiftedCall, Literal, Parameter, Provenance,
     Replacement, Source,
 };
-pub use action_model::{ActionModel, ModelPddlNames, describe_replacements, schema_name};
+pub use action_model::{ActionModel, ModelPddlNames, UniqueNames, describe_replacements, schema_name};
 pub use action_model_file::{MODEL_FORMAT, ModelFileError};
 pub use atom::{Atom, AtomTextError, GroundAtom, LiftedAtom, Term, check_name};
 pub use budget::{Budget, Stop};
 pub use evidence::{
-    Cluster, ClusterKey, Evidence, NegativeKey, PRE_STATE_BOUND, PreStates, Unexplained, WITNESS_BOUND, Witness,
+    Cluster, ClusterKey, Evidence, MOST_PARAMETERS, NegativeKey, PRE_STATE_BOUND, PreStates, Unexplained,
+    WITNESS_BOUND, Witness,
 };
 pub use hierarchy::{Hierarchy, HierarchyError, ROOT, TypeId};
 pub use json_message::json_message;

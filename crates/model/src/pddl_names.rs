@@ -28,8 +28,9 @@ pub struct PddlNames {
 }
 
 impl PddlNames {
-    /// Folds each name: lower case, any character other than letters, digits, `-` and `_` replaced by `_`, and `n_`
-    /// put before a name that does not start with a letter.
+    /// Folds each name: ASCII letters in lower case, other ASCII characters than letters, digits, `-` and `_` replaced
+    /// by `_`, a character beyond ASCII by its code point as `_u1f375`, and `n_` put before a name that does not start
+    /// with a letter.
     ///
     /// # Errors
     /// [`NameCollision`] if two different names fold to one.
@@ -67,10 +68,14 @@ impl PddlNames {
 }
 
 fn folded(name: &str) -> Symbol {
-    let mut text: String = name
-        .chars()
-        .map(|c| if c.is_ascii_alphanumeric() || c == '-' || c == '_' { c.to_ascii_lowercase() } else { '_' })
-        .collect();
+    let mut text = String::with_capacity(name.len());
+    for c in name.chars() {
+        match c {
+            '-' | '_' | '0'..='9' | 'a'..='z' | 'A'..='Z' => text.push(c.to_ascii_lowercase()),
+            _ if c.is_ascii() => text.push('_'),
+            _ => text.push_str(&format!("_u{:x}", u32::from(c))),
+        }
+    }
     if !text.starts_with(|c: char| c.is_ascii_alphabetic()) {
         text.insert_str(0, "n_");
     }
@@ -83,12 +88,13 @@ mod tests {
 
     #[test]
     fn folding_is_reversible_or_refused() {
-        let names = ["status_Ready", "free", "3rd"].map(Symbol::new);
+        let names = ["status_Ready", "free", "3rd", "état", "打开", "关闭"].map(Symbol::new);
         let mapping = PddlNames::fold("predicate", &names).expect("no collision");
         for name in &names {
             let pddl = mapping.pddl(name.as_str()).expect("mapped");
             assert_eq!(mapping.name(&pddl.as_str().to_uppercase()), Some(name));
         }
+        assert_eq!(mapping.pddl("état").map(Symbol::as_str), Some("n__ue9tat"));
         let clash = PddlNames::fold("predicate", &["Ready", "ready"].map(Symbol::new)).expect_err("they collide");
         assert_eq!(clash.to_string(), "the predicate names `Ready` and `ready` are the same name in PDDL, `ready`");
     }

@@ -7,7 +7,7 @@ use crate::{GroundAtom, Symbol, TypeId};
 /// A symbolic state: its objects with their types and its true atoms; every other atom is false unless it is
 /// listed as unknown.
 ///
-/// Planning takes an unknown atom as one that does not hold; learning takes it neither as holding nor as changed; and
+/// Planning takes an unknown atom as one that does not hold; learning leaves out transitions that depend on one; and
 /// whoever compares expectation with observation lets it count neither way.
 ///
 /// The types are ids of the hierarchy against which the state was read.

@@ -13,7 +13,7 @@ use crate::HashSet;
 /// Comparison, hashing and order are those of the text, so results ordered by symbol do not depend on who was
 /// met first. Cloning copies a pointer.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(rename = "Name", description = "A name."))]
 #[serde(transparent)]
 pub struct Symbol(Arc<str>);
 

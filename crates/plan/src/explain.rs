@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use typelift_model::{ActionModel, ActionSchema, GroundAtom, LiftedAtom, Symbol, Task, Term};
+use typelift_model::{ActionModel, ActionSchema, GroundAtom, HashMap, LiftedAtom, Symbol, Task, Term};
 
 use crate::Restrictions;
 use crate::ground::GroundTask;
@@ -34,6 +34,8 @@ pub enum Misfit {
         /// The type.
         ty: Symbol,
     },
+    /// What fits was tried, and may not be tried again.
+    Banned,
     /// A precondition cannot be reached; parameters that the atom leaves open are written by their type.
     Precondition(String),
 }
@@ -45,6 +47,7 @@ impl fmt::Display for Misfit {
             Self::Missing { object } => write!(f, "there is no {object}"),
             Self::Excluded { object } => write!(f, "{object} may not be used any more"),
             Self::NoObject { ty } => write!(f, "there is no {ty} that may be used"),
+            Self::Banned => f.write_str("what fits it was tried and failed"),
             Self::Precondition(atom) => write!(f, "it needs {atom}, which cannot be reached"),
         }
     }
@@ -121,7 +124,11 @@ pub(crate) fn unreachable(
     restrictions: &Restrictions,
     ground: &GroundTask,
 ) -> Vec<UnreachableGoal> {
-    let context = Context { model, task, restrictions, ground };
+    let mut reached: HashMap<Symbol, Vec<GroundAtom>> = HashMap::default();
+    for atom in ground.reached_facts().map(|fact| ground.atom(fact)) {
+        reached.entry(atom.predicate.clone()).or_default().push(atom);
+    }
+    let context = Context { model, task, restrictions, reached };
     let nearest = |atom: &GroundAtom| {
         let candidates = model.actions.iter().flat_map(|schema| schema.adds().map(move |add| (schema, add)));
         let fitting = candidates.filter(|(_, add)| add.predicate == atom.predicate && add.arity() == atom.arity());
@@ -140,7 +147,8 @@ struct Context<'a> {
     model: &'a ActionModel,
     task: &'a Task,
     restrictions: &'a Restrictions,
-    ground: &'a GroundTask,
+    /// The reachable atoms of each predicate.
+    reached: HashMap<Symbol, Vec<GroundAtom>>,
 }
 
 impl Context<'_> {
@@ -184,14 +192,16 @@ impl Context<'_> {
             let missing = schema.positive_preconditions().find(|pre| !self.reachable_somehow(schema, pre, &binding));
             misfits.extend(missing.map(|pre| Misfit::Precondition(written(schema, pre, &binding, self.model))));
         }
+        if misfits.is_empty() && self.restrictions.banned.iter().any(|ban| ban.call.name == schema.call.name) {
+            misfits.push(Misfit::Banned);
+        }
         Some(Nearest { action: schema.name.clone(), misfits })
     }
 
     /// Whether some instance of a precondition under a partial binding is reachable.
     fn reachable_somehow(&self, schema: &ActionSchema, pre: &LiftedAtom, binding: &[Option<&Symbol>]) -> bool {
-        self.ground.reached_facts().map(|fact| self.ground.atom(fact)).any(|fact| {
-            fact.predicate == pre.predicate
-                && fact.arity() == pre.arity()
+        self.reached.get(&pre.predicate).into_iter().flatten().any(|fact| {
+            fact.arity() == pre.arity()
                 && pre.args.iter().zip(&fact.args).all(|(term, object)| match term {
                     Term::Const(name) => name == object,
                     Term::Param(p) => binding[*p as usize].map_or_else(

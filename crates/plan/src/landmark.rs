@@ -15,10 +15,11 @@
 
 use std::collections::{BTreeSet, VecDeque};
 
-use typelift_model::{GroundAtom, Symbol};
+use typelift_model::{Budget, GroundAtom, Symbol};
 
 use crate::fact::FactId;
 use crate::ground::{GroundTask, Op, OpId};
+use crate::reach::Cut;
 
 /// Landmarks in the order in which they are to be passed.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -30,8 +31,11 @@ pub struct LandmarkSequence {
 }
 
 /// The landmark sequences of a task whose goals are all reachable, by goal object, then by other goal atom.
-pub fn landmark_sequences(task: &GroundTask) -> Vec<LandmarkSequence> {
-    let landmarks = LandmarkSets::of(task);
+///
+/// # Errors
+/// [`Cut`] if the budget ends it.
+pub fn landmark_sequences(task: &GroundTask, budget: &Budget) -> Result<Vec<LandmarkSequence>, Cut> {
+    let landmarks = LandmarkSets::of(task, budget)?;
     let mut sequences = Vec::new();
     for (object, goals) in clusters(task) {
         let objects: BTreeSet<&Symbol> = match &object {
@@ -49,9 +53,17 @@ pub fn landmark_sequences(task: &GroundTask) -> Vec<LandmarkSequence> {
         let ordered = landmarks.ordered(&facts.into_iter().collect::<Vec<_>>());
         let facts = landmarks.with_repetitions(&ordered);
         sequences.push(LandmarkSequence { object, facts });
+        poll(budget)?;
     }
-    sequences
+    Ok(sequences)
 }
+
+fn poll(budget: &Budget) -> Result<(), Cut> {
+    budget.stopped().map_or(Ok(()), |stop| Err(Cut::Stopped(stop)))
+}
+
+/// How often, in actions looked at, the budget is asked whether to stop.
+const POLL_INTERVAL: usize = 1 << 10;
 
 /// The goal's atoms by goal object; atoms that mention none stand alone, after them.
 fn clusters(task: &GroundTask) -> Vec<(Option<Symbol>, Vec<GroundAtom>)> {
@@ -82,7 +94,7 @@ struct LandmarkSets<'a> {
 }
 
 impl<'a> LandmarkSets<'a> {
-    fn of(task: &'a GroundTask) -> Self {
+    fn of(task: &'a GroundTask, budget: &Budget) -> Result<Self, Cut> {
         let n = task.fact_count();
         let mut this = Self { task, initial: vec![false; n], achievers: vec![Vec::new(); n], sets: vec![None; n] };
         for &fact in task.init() {
@@ -105,7 +117,12 @@ impl<'a> LandmarkSets<'a> {
         }
         let mut queued = vec![true; task.op_count()];
         let mut queue: VecDeque<OpId> = task.ops().map(|(id, _)| id).collect();
+        let mut work = 0_usize;
         while let Some(id) = queue.pop_front() {
+            work += 1;
+            if work.is_multiple_of(POLL_INTERVAL) {
+                poll(budget)?;
+            }
             queued[id.index()] = false;
             for fact in this.propagate(task.op(id)) {
                 for &user in &users[fact.index()] {
@@ -115,7 +132,7 @@ impl<'a> LandmarkSets<'a> {
                 }
             }
         }
-        this
+        Ok(this)
     }
 
     /// What all of an action's preconditions need, together; `None` while one is unknown.
@@ -166,49 +183,88 @@ impl<'a> LandmarkSets<'a> {
         })
     }
 
-    /// Whether `a` cannot be achieved any more once `b` is: each achiever of `a` needs a fact that every achiever of
-    /// `b` deletes and nothing ever adds.
-    fn foreclosed_by_achieving(&self, a: FactId, b: FactId) -> bool {
-        let lost_for_good = |fact: FactId| {
-            self.achievers[fact.index()].is_empty()
-                && self.every_achiever(b, |op| op.deletes.binary_search(&fact).is_ok())
-        };
-        self.every_achiever(a, |op| op.preconditions.iter().any(|&fact| lost_for_good(fact)))
+    /// What every achiever of a fact has in a list, sorted.
+    fn common(&self, fact: FactId, list: impl Fn(&Op) -> &[FactId]) -> Vec<FactId> {
+        let mut achievers = self.achievers[fact.index()].iter().map(|&id| list(self.task.op(id)));
+        let Some(first) = achievers.next() else { return Vec::new() };
+        achievers.fold(first.to_vec(), |mut common, other| {
+            common.retain(|fact| other.binary_search(fact).is_ok());
+            common
+        })
+    }
+
+    /// Whether `a` cannot be achieved any more once the facts `lost` are lost: each achiever of `a` needs one of them.
+    fn foreclosed(&self, a: FactId, lost: &[FactId]) -> bool {
+        !lost.is_empty()
+            && self.every_achiever(a, |op| op.preconditions.iter().any(|fact| lost.binary_search(fact).is_ok()))
     }
 
     fn ordered(&self, facts: &[FactId]) -> Vec<FactId> {
-        // What forecloses each other has to be achieved at once: neither comes before the other.
-        let must = |a: FactId, b: FactId| {
-            self.of_fact(b).binary_search(&a).is_ok()
-                || self.foreclosed_by_achieving(a, b) && !self.foreclosed_by_achieving(b, a)
-        };
-        let before = |a: FactId, b: FactId| {
-            must(a, b) || !must(b, a) && self.destroyed_by_achieving(a, b) && !self.destroyed_by_achieving(b, a)
-        };
-        let mut left: Vec<(usize, GroundAtom, FactId)> =
+        let mut sorted: Vec<(usize, GroundAtom, FactId)> =
             facts.iter().map(|&fact| (self.of_fact(fact).len(), self.task.atom(fact), fact)).collect();
-        left.sort_unstable();
-        let mut ordered = Vec::with_capacity(left.len());
+        sorted.sort_unstable();
+        let facts: Vec<FactId> = sorted.into_iter().map(|(_, _, fact)| fact).collect();
+        // What achieving each fact deletes and nothing ever adds again.
+        let lost: Vec<Vec<FactId>> = facts
+            .iter()
+            .map(|&fact| {
+                let mut deleted = self.common(fact, |op| &op.deletes);
+                deleted.retain(|fact| self.achievers[fact.index()].is_empty());
+                deleted
+            })
+            .collect();
+        // What forecloses each other has to be achieved at once: neither comes before the other.
+        let must = |a: usize, b: usize| {
+            self.of_fact(facts[b]).binary_search(&facts[a]).is_ok()
+                || self.foreclosed(facts[a], &lost[b]) && !self.foreclosed(facts[b], &lost[a])
+        };
+        let before = |a: usize, b: usize| {
+            must(a, b)
+                || !must(b, a)
+                    && self.destroyed_by_achieving(facts[a], facts[b])
+                    && !self.destroyed_by_achieving(facts[b], facts[a])
+        };
+        let n = facts.len();
+        let mut waits_for = vec![0_usize; n];
+        let mut followers: Vec<Vec<usize>> = vec![Vec::new(); n];
+        for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))).filter(|(a, b)| a != b) {
+            if before(a, b) {
+                waits_for[b] += 1;
+                followers[a].push(b);
+            }
+        }
+        let mut left: Vec<usize> = (0..n).collect();
+        let mut ordered = Vec::with_capacity(n);
         while !left.is_empty() {
-            let free = left.iter().position(|(_, _, b)| left.iter().all(|(_, _, a)| a == b || !before(*a, *b)));
-            ordered.push(left.remove(free.unwrap_or(0)).2);
+            let next = left.remove(left.iter().position(|&fact| waits_for[fact] == 0).unwrap_or(0));
+            for &follower in &followers[next] {
+                waits_for[follower] -= 1;
+            }
+            ordered.push(facts[next]);
         }
         ordered
     }
 
     fn with_repetitions(&self, ordered: &[FactId]) -> Vec<FactId> {
         let mut sequence: Vec<FactId> = Vec::with_capacity(ordered.len());
+        // Whether each landmark was destroyed, by what every achiever of a later one deletes, since its last place.
+        let mut destroyed = vec![false; ordered.len()];
         for (i, &landmark) in ordered.iter().enumerate() {
-            for &needed in &ordered[..i] {
-                let Some(last) = sequence.iter().rposition(|&f| f == needed) else { continue };
-                let destroyed = sequence[last + 1..].iter().any(|&since| {
-                    since != needed && self.every_achiever(since, |op| op.deletes.binary_search(&needed).is_ok())
-                });
-                if destroyed && self.every_achiever(landmark, |op| op.preconditions.binary_search(&needed).is_ok()) {
-                    sequence.push(needed);
+            let needed = self.common(landmark, |op| &op.preconditions);
+            let mut insert = |place: usize, fact: FactId, destroyed: &mut Vec<bool>| {
+                let deleted = self.common(fact, |op| &op.deletes);
+                for (j, earlier) in ordered[..i].iter().enumerate() {
+                    destroyed[j] |= *earlier != fact && deleted.binary_search(earlier).is_ok();
+                }
+                destroyed[place] = false;
+                sequence.push(fact);
+            };
+            for (j, &earlier) in ordered[..i].iter().enumerate() {
+                if destroyed[j] && needed.binary_search(&earlier).is_ok() {
+                    insert(j, earlier, &mut destroyed);
                 }
             }
-            sequence.push(landmark);
+            insert(i, landmark, &mut destroyed);
         }
         sequence
     }

@@ -43,7 +43,7 @@ impl Planner {
     /// The model is taken as it is: whoever wants strict applicability or imagined actions rewrites it before.
     ///
     /// # Errors
-    /// [`Cut`] if the budget ends grounding.
+    /// [`Cut`] if the budget ends grounding, or the work on landmarks.
     pub fn new(
         model: &ActionModel,
         task: &Task,
@@ -52,10 +52,12 @@ impl Planner {
         budget: &Budget,
     ) -> Result<Self, Cut> {
         let ground = ground(model, task, restrictions, options.tie_order, budget)?;
-        let search = ground.unreachable_goals().is_empty().then(|| {
-            let heuristic = OrderedLandmarks::new(landmark_sequences(&ground));
-            Search::new(&ground, Box::new(heuristic), options.plans)
-        });
+        let search = if ground.unreachable_goals().is_empty() {
+            let heuristic = OrderedLandmarks::new(landmark_sequences(&ground, budget)?);
+            Some(Search::new(&ground, Box::new(heuristic), options.plans))
+        } else {
+            None
+        };
         let (model, task, restrictions) = (model.clone(), task.clone(), restrictions.clone());
         Ok(Self { model, task, restrictions, ground, search })
     }

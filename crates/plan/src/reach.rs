@@ -7,13 +7,15 @@
 //! parameters that no positive precondition mentions range over all objects of their type. Negative preconditions
 //! are ignored, as deletes are. An effect with a condition is reached when the positive part of it is.
 
+use std::collections::BTreeSet;
+
 use thiserror::Error;
 use typelift_model::{ActionModel, ActionSchema, Budget, GroundAtom, HashMap, LiftedAtom, Stop, Symbol, Task, Term};
 
-use crate::Restrictions;
 use crate::fact::{FactId, Facts, ObjectId};
+use crate::{Ban, Restrictions};
 
-/// How often, in ground actions, the budget is asked whether to stop.
+/// How often, in joins and ground actions, the budget is asked whether to stop.
 const POLL_INTERVAL: usize = 1 << 12;
 
 /// Why grounding ended early.
@@ -109,6 +111,7 @@ pub(crate) fn reach(
         pending: Vec::new(),
         trigger: None,
         bytes: 0,
+        work: 0,
     };
     for atom in &task.init.atoms {
         if let Some(fact) = join.facts.intern_atom(atom) {
@@ -200,6 +203,8 @@ struct Join<'a> {
     /// The fact being joined: preconditions before the one it came through may not match it again.
     trigger: Option<FactId>,
     bytes: u64,
+    /// Joins and ground actions so far.
+    work: usize,
 }
 
 impl Join<'_> {
@@ -309,6 +314,7 @@ impl Join<'_> {
     ) -> Result<(), Cut> {
         let best = (0..open.len()).min_by_key(|&i| self.candidates(&schema.preconditions[open[i].0], binding).len());
         let Some(best) = best else { return self.complete(schema, binding) };
+        self.poll()?;
         let (k, older) = open.swap_remove(best);
         let pattern = &schema.preconditions[k];
         for fact in self.candidates(pattern, binding).to_vec() {
@@ -385,7 +391,13 @@ impl Join<'_> {
         if self.budget.bytes.is_some_and(|limit| self.bytes > limit) {
             return Err(Cut::OutOfMemory);
         }
-        if self.ops.len().is_multiple_of(POLL_INTERVAL)
+        self.poll()
+    }
+
+    /// Now and then asks whether to stop.
+    fn poll(&mut self) -> Result<(), Cut> {
+        self.work += 1;
+        if self.work.is_multiple_of(POLL_INTERVAL)
             && let Some(stop) = self.budget.stopped()
         {
             return Err(Cut::Stopped(stop));
@@ -399,18 +411,20 @@ impl Join<'_> {
         }
         let objects: Vec<Symbol> = op.objects.iter().map(|&o| self.facts.name(o).clone()).collect();
         let args = || schema.call.args.iter().map(|term| term.object(&objects));
+        let conditional = schema.effects.iter().any(|effect| !effect.condition.is_empty());
         self.restrictions.banned.iter().any(|ban| {
-            let atoms = |adds: bool| {
-                let mut atoms: Vec<GroundAtom> =
-                    op.effects.iter().filter(|e| e.adds == adds).map(|e| self.facts.atom(e.fact)).collect();
-                atoms.sort_unstable();
-                atoms
-            };
-            ban.call.name == schema.call.name
-                && args().eq(ban.call.args.iter().cloned())
-                && atoms(true) == ban.adds
-                && atoms(false) == ban.deletes
+            let same_call = ban.call.name == schema.call.name && args().eq(ban.call.args.iter().cloned());
+            same_call && if conditional { ban.action == schema.name } else { self.effect_is(op, ban) }
         })
+    }
+
+    /// Whether the unconditional effect of a ground action is the one that was banned.
+    fn effect_is(&self, op: &RawOp, ban: &Ban) -> bool {
+        let atoms = |adds: bool| -> BTreeSet<GroundAtom> {
+            op.effects.iter().filter(|e| e.adds == adds).map(|e| self.facts.atom(e.fact)).collect()
+        };
+        let adds = atoms(true);
+        adds.iter().eq(&ban.adds) && atoms(false).difference(&adds).eq(&ban.deletes)
     }
 }
 

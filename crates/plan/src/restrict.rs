@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use typelift_model::{GroundAtom, GroundCall, Symbol};
+use typelift_model::{GroundAction, GroundAtom, GroundCall, Symbol};
 
 /// An object that may not take part in actions.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -13,15 +13,30 @@ pub struct Exclusion {
     pub call: Option<Symbol>,
 }
 
-/// A ground action that may not be used: this call, expected to have this effect.
+/// A ground action that may not be used: this call, expected to have this effect. Another action with the same call
+/// and another effect may.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Ban {
+    /// The action schema. Where its effects have conditions they depend on the state, and schema and call decide.
+    pub action: Symbol,
     /// The call.
     pub call: GroundCall,
     /// What it was expected to add, sorted.
     pub adds: Vec<GroundAtom>,
-    /// What it was expected to delete, sorted.
+    /// What it was expected to delete and not to add, sorted.
     pub deletes: Vec<GroundAtom>,
+}
+
+impl Ban {
+    /// The ban of a ground action.
+    pub fn of(action: &GroundAction) -> Self {
+        Self {
+            action: action.schema.clone(),
+            call: action.call.clone(),
+            adds: action.adds.clone(),
+            deletes: action.deletes.clone(),
+        }
+    }
 }
 
 /// Objects and ground actions that grounding leaves out.

@@ -57,6 +57,11 @@
 //! ```
 #![deny(missing_docs)]
 
+#[cfg(feature = "schema")]
+mod schemas;
+
+#[cfg(feature = "schema")]
+pub use schemas::schemas;
 pub use typelift_agent as agent;
 pub use typelift_bridge as bridge;
 pub use typelift_check as check;

@@ -1,35 +1,50 @@
 //! Reading many demonstrations against one hierarchy.
 
 use std::fs::File;
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Cursor, Read};
 use std::path::{Path, PathBuf};
 
 use typelift_model::{Hierarchy, ParseConfig};
 
+use crate::line_reader::LINE_LIMIT;
 use crate::object_types::files_of;
-use crate::{Dataset, FileError, ObjectTypes, Parser, Trace, read_trace, read_trajectory};
+use crate::text_file::text_from;
+use crate::trace_file::trace_from;
+use crate::trajectory_file::trajectory_from;
+use crate::{Dataset, FileError, ObjectTypes, Parser, Trace, TraceReader};
 
 /// Reads a trace or a trajectory, which of the two being told from its first character.
 ///
 /// # Errors
-/// [`FileError`] as for [`read_trace`] and [`read_trajectory`].
+/// [`FileError`] as for [`read_trace`](crate::read_trace) and [`read_trajectory`](crate::read_trajectory).
 pub fn read_any_trace(path: &Path, types: &ObjectTypes, parser: &mut Parser) -> Result<Trace, FileError> {
     let io = |e: std::io::Error| FileError::from_io(path, &e);
     let mut input = BufReader::new(File::open(path).map_err(io)?);
-    loop {
+    // The file is opened once: it may be a pipe.
+    let mut blank = Vec::new();
+    let is_trajectory = loop {
         let bytes = input.fill_buf().map_err(io)?;
         if bytes.is_empty() {
             return Err(FileError::new(path, "the file is empty"));
         }
         let without_mark = bytes.strip_prefix("\u{FEFF}".as_bytes()).unwrap_or(bytes);
         match without_mark.iter().find(|b| !b.is_ascii_whitespace()) {
-            Some(b'(' | b';') => return read_trajectory(path, types, parser),
-            Some(_) => return read_trace(path, parser),
+            Some(first) => break matches!(first, b'(' | b';'),
+            None if blank.len() > LINE_LIMIT => break false,
             None => {
-                let blank = bytes.len();
-                input.consume(blank);
+                blank.extend_from_slice(bytes);
+                let read = bytes.len();
+                input.consume(read);
             }
         }
+    };
+    let mut input = Cursor::new(blank).chain(input);
+    if is_trajectory {
+        let mut bytes = Vec::new();
+        input.read_to_end(&mut bytes).map_err(io)?;
+        trajectory_from(path, &text_from(path, bytes)?, types, parser)
+    } else {
+        trace_from(path, TraceReader::new(path, input)?, parser)
     }
 }
 

@@ -29,6 +29,10 @@ pub enum RequestBody {
     /// Who are you? Answered by `name` and `reset`.
     Hello {
         /// [`PROTOCOL`].
+        #[cfg_attr(
+            feature = "schema",
+            schemars(description = "The protocol and its version.", extend("const" = PROTOCOL))
+        )]
         protocol: String,
     },
     /// Set yourself to an initial state; answered by `state`.

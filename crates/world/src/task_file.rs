@@ -146,12 +146,18 @@ impl TaskFile {
 #[derive(Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct WrittenTask<'a> {
+    /// The format and its version.
+    #[cfg_attr(feature = "schema", schemars(extend("const" = TASK_FORMAT)))]
     format: String,
+    /// The atoms that must hold in the end.
     goal: &'a [GroundAtom],
+    /// The state to start from.
     #[serde(skip_serializing_if = "Option::is_none")]
     state: Option<&'a Scene>,
+    /// What the environment is to set up, in its own terms.
     #[serde(skip_serializing_if = "Option::is_none")]
     scenario: Option<&'a serde_json::Value>,
+    /// The seed of whatever the environment leaves to chance.
     #[serde(skip_serializing_if = "Option::is_none")]
     seed: Option<u64>,
 }

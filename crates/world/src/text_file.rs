@@ -11,7 +11,11 @@ use crate::FileError;
 /// # Errors
 /// [`FileError`] if it cannot be read, or at the first byte that is not UTF-8.
 pub fn read_text(path: &Path) -> Result<String, FileError> {
-    let bytes = fs::read(path).map_err(|e| FileError::from_io(path, &e))?;
+    text_from(path, fs::read(path).map_err(|e| FileError::from_io(path, &e))?)
+}
+
+/// The content of a file as text.
+pub(crate) fn text_from(path: &Path, bytes: Vec<u8>) -> Result<String, FileError> {
     let mut text = String::from_utf8(bytes).map_err(|error| {
         let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let line = 1 + valid.iter().filter(|&&b| b == b'\n').count();

@@ -76,7 +76,7 @@ impl<R: BufRead> TraceReader<R> {
             return Err(no_header());
         }
         match json::format(line.text) {
-            Err(error) if error.is_eof() && line.complete => return Err(no_header()),
+            Err(error) if error.is_eof() => return Err(no_header()),
             Err(error) => return Err(malformed(path, &line, &error)),
             Ok(None) => return Err(no_header()),
             Ok(Some(found)) => json::check_format(&found, TRACE_FORMAT)
@@ -197,7 +197,11 @@ pub(crate) fn file_name(path: &Path) -> Option<Symbol> {
     path.file_name().map(|name| Symbol::from(name.to_string_lossy().into_owned()))
 }
 
-fn trace_from<R: BufRead>(path: &Path, mut reader: TraceReader<R>, parser: &mut Parser) -> Result<Trace, FileError> {
+pub(crate) fn trace_from<R: BufRead>(
+    path: &Path,
+    mut reader: TraceReader<R>,
+    parser: &mut Parser,
+) -> Result<Trace, FileError> {
     let TraceHeader { task, goal } = reader.header().clone();
     let mut trace = Trace { file: file_name(path), task, goal, ..Trace::default() };
     let mut names = SymbolPool::new();
@@ -223,8 +227,10 @@ fn trace_from<R: BufRead>(path: &Path, mut reader: TraceReader<R>, parser: &mut 
                 trace.states.push(share(&state, &mut names));
             }
             TraceItem::Action(action) => {
-                check_name(action.call.name.as_str())
-                    .map_err(|error| FileError::at_line(path, line, format!("the action's name: {error}")))?;
+                check_name(action.call.name.as_str()).map_err(|error| {
+                    let hint = "An action is named by a word without white space and ( ) , ; \".";
+                    FileError::at_line(path, line, format!("the action's name: {error}")).with_hint(hint.to_owned())
+                })?;
                 let state = trace.states.last().map(|state| &state.objects);
                 let missing = action.call.args.iter().find(|arg| !state.is_some_and(|s| s.contains_key(*arg)));
                 if let Some(missing) = missing {

@@ -19,10 +19,16 @@ pub enum TraceLine<'a> {
     /// The first line.
     Header {
         /// [`TRACE_FORMAT`].
+        #[cfg_attr(
+            feature = "schema",
+            schemars(description = "The format and its version.", extend("const" = TRACE_FORMAT))
+        )]
         format: &'a str,
         /// What is done, in words.
+        #[cfg_attr(feature = "schema", schemars(default))]
         task: &'a str,
         /// What holds in the end.
+        #[cfg_attr(feature = "schema", schemars(default))]
         goal: &'a [GroundAtom],
     },
     /// A state; the first line after the header, and the one after each action.

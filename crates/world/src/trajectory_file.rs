@@ -15,18 +15,26 @@ use crate::{FileError, ObjectTypes, ParseError, ParseErrorKind, Parser, Scene, T
 /// # Errors
 /// [`FileError`] if it is malformed, or an object's type is not given or not in the hierarchy.
 pub fn read_trajectory(path: &Path, types: &ObjectTypes, parser: &mut Parser) -> Result<Trace, FileError> {
-    let text = read_text(path)?;
-    let located = |error: PddlError| FileError::from_pddl(path, &text, error);
-    let trajectory = typelift_pddl::read_trajectory(&text).map_err(located)?;
+    trajectory_from(path, &read_text(path)?, types, parser)
+}
+
+pub(crate) fn trajectory_from(
+    path: &Path,
+    text: &str,
+    types: &ObjectTypes,
+    parser: &mut Parser,
+) -> Result<Trace, FileError> {
+    let located = |error: PddlError| FileError::from_pddl(path, text, error);
+    let trajectory = typelift_pddl::read_trajectory(text).map_err(located)?;
     let given = types.of_trajectory(path)?;
-    let objects = typed_objects(&text, &trajectory, &given, parser.hierarchy()).map_err(located)?;
+    let objects = typed_objects(text, &trajectory, &given, parser.hierarchy()).map_err(located)?;
     let mut trace = Trace { file: file_name(path), ..Trace::default() };
     for state in &trajectory.states {
         let atoms: BTreeSet<GroundAtom> = state.atoms.iter().map(|(atom, _)| atom.clone()).collect();
         let scene = Scene::Symbolic { objects: objects.clone(), atoms, unknown: BTreeSet::new() };
         let state = parser.parse(&scene).map_err(|error| {
             let span = offending_span(&error, &state.atoms).unwrap_or(state.span);
-            located(PddlError::new(&text, span, error.to_string()))
+            located(PddlError::new(text, span, error.to_string()))
         })?;
         trace.states.push(state);
     }

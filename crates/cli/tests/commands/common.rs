@@ -163,7 +163,7 @@ fn without_times(text: &str) -> String {
         kept.push_str(before);
         let end = number.find(|c: char| !c.is_ascii_digit() && !".e-".contains(c)).unwrap_or(number.len());
         let (number, after) = number.split_at(end);
-        let is_time = [" ms", " s.", " s\n"].iter().any(|unit| after.starts_with(unit))
+        let is_time = [" ms", " s."].iter().any(|unit| after.starts_with(unit))
             || ["seconds\":", "seconds\": "].iter().any(|key| before.ends_with(key));
         kept.push_str(if is_time { "N" } else { number });
         rest = after;

@@ -5,7 +5,16 @@ use crate::common::Folder;
 #[test]
 fn every_command_has_help() {
     let commands = [
-        "", "demo", "learn", "show", "plan", "run", "kitchen", "kitchen export", "kitchen serve", "kitchen replay",
+        "",
+        "demo",
+        "learn",
+        "show",
+        "plan",
+        "run",
+        "kitchen",
+        "kitchen export",
+        "kitchen serve",
+        "kitchen replay",
         "kitchen draw",
     ];
     let folder = Folder::new();

@@ -1,0 +1,67 @@
+//! Environments in other programs, and how they fail.
+#![cfg(unix)]
+
+use crate::common::{Folder, Transcript};
+
+#[test]
+fn the_kitchen_as_another_program() {
+    let folder = Folder::kitchen();
+    let serve = format!("'{} kitchen serve'", env!("CARGO_BIN_EXE_typelift"));
+    let inside = folder.run("run kitchen.json K/faults/broken_cutboard_lettuce.json --kitchen --imagine");
+    let outside =
+        folder.run(&format!("run kitchen.json K/faults/broken_cutboard_lettuce.json --env {serve} --imagine"));
+    inside.succeeds();
+    assert_eq!(inside.to_string(), outside.to_string());
+}
+
+#[test]
+fn environments_that_fail() {
+    let folder = Folder::kitchen();
+    let hello = r#"read x; echo "{\"id\":1,\"ok\":true,\"name\":\"test\",\"reset\":true}""#;
+    let fixed = r#"read x; echo "{\"id\":1,\"ok\":true,\"name\":\"test\",\"reset\":false}""#;
+    let scripts = [
+        ("garbage.sh", "echo garbage; cat".to_owned()),
+        ("dies.sh", format!("{hello}; read x; echo on my way out >&2; exit 3")),
+        (
+            "refuses.sh",
+            format!("{hello}; read x; echo '{{\"id\":2,\"ok\":false,\"error\":\"the arm is unplugged\"}}'; cat"),
+        ),
+        (
+            "strange.sh",
+            format!(
+                "{hello}; read x; echo '{{\"id\":2,\"ok\":true,\"state\":{{\"objects\":{{\"a\":\"robot\"}}}}}}'; cat"
+            ),
+        ),
+        ("silent.sh", "cat >/dev/null".to_owned()),
+        ("fixed.sh", format!("{fixed}; cat")),
+    ];
+    for (name, script) in scripts {
+        folder.write(name, script);
+    }
+    folder.write("events.jsonl", "from an earlier run\n");
+    let mut transcript = Transcript::default();
+    for (code, options) in [
+        (35, "--env no-such-program --events events.jsonl"),
+        (35, "--env '\"'"),
+        (35, "--env true"),
+        (35, "--env 'sh garbage.sh' --events events.jsonl"),
+        (35, "--env 'sh dies.sh'"),
+        (35, "--env 'sh refuses.sh'"),
+        (35, "--env 'sh strange.sh'"),
+        (35, "--env 'sh silent.sh' --env-timeout hello=50ms"),
+        (35, "--env 'sh silent.sh' --env-timeout observe=1s,hello=70ms,act=1h"),
+        (31, "--env 'sh fixed.sh' --restart"),
+    ] {
+        let command = if options.contains('"') {
+            // A quotation that is never closed cannot be written within one.
+            "run kitchen.json K/tasks/T1.1.json -q --env \"".to_owned()
+        } else {
+            format!("run kitchen.json K/tasks/T1.1.json -q {options}")
+        };
+        let ended = folder.run(&command);
+        assert_eq!((ended.code, ended.out.as_str()), (code, ""), "{command}: {ended}");
+        transcript.add(options, &ended);
+    }
+    assert_eq!(folder.read("events.jsonl"), "from an earlier run\n");
+    insta::assert_snapshot!(transcript.0);
+}

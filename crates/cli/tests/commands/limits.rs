@@ -1,0 +1,59 @@
+//! Limits of time, expansions and memory.
+
+use crate::common::{Folder, Transcript};
+
+#[test]
+fn each_limit_ends_planning_with_its_code() {
+    let folder = Folder::kitchen();
+    let mut transcript = Transcript::default();
+    for (code, limit) in [
+        (23, "--time-limit 0"),
+        (23, "--time-limit 0ms --imagine"),
+        (12, "--max-expansions 0"),
+        (12, "--max-expansions 1"),
+        (22, "--memory-limit 0"),
+    ] {
+        for json in ["", " --json"] {
+            let command = format!("plan kitchen.json K/tasks/T1.4.json {limit}{json} -o t.plan");
+            let ended = folder.run(&command);
+            assert_eq!(ended.code, code, "{command}: {ended}");
+            transcript.add(&command, &ended);
+        }
+    }
+    assert_eq!(folder.names(), ["K", "kitchen.json"], "there is no plan to write");
+    insta::assert_snapshot!(transcript.0);
+}
+
+#[test]
+fn a_limit_that_is_met_after_the_first_plan_keeps_it() {
+    let folder = Folder::kitchen();
+    let ended = folder.run("plan kitchen.json K/tasks/T1.1.json --plans 100 --max-expansions 6 -o t");
+    ended.succeeds();
+    assert_eq!(ended.err, "no further plan: gave up at the limit of expansions\n");
+    assert!(ended.out.starts_with("plan 1: 5 steps, ") && folder.names().len() == 3, "{ended}");
+}
+
+#[test]
+fn each_limit_ends_a_run() {
+    let folder = Folder::kitchen();
+    let mut transcript = Transcript::default();
+    for limit in ["--time-limit 0", "--max-expansions 1", "--memory-limit 0", "--max-proposals 0"] {
+        let command = format!("run kitchen.json K/tasks/T1.4.json --kitchen {limit} -q");
+        let ended = folder.run(&command);
+        assert_eq!(ended.code, 12, "{command}: {ended}");
+        transcript.add(&command, &ended);
+    }
+    insta::assert_snapshot!(transcript.0);
+}
+
+#[test]
+fn a_time_limit_covers_grounding() {
+    let folder = Folder::kitchen();
+    // With thirty parameters that nothing restricts, grounding alone would take for ever.
+    folder.changed("kitchen.json", "wide.json", |model| {
+        let parameters = model["actions"][0]["parameters"].as_array_mut().expect("a list");
+        parameters.extend((0..30).map(|i| serde_json::json!([format!("y{i}"), "item"])));
+    });
+    let ended = folder.run("plan wide.json K/tasks/T1.1.json --time-limit 200ms");
+    assert_eq!((ended.code, ended.err.as_str()), (23, "no plan: out of time while grounding\n"), "{ended}");
+}

@@ -1,0 +1,109 @@
+//! Where output goes, and what happens if it cannot go there.
+#![cfg(unix)]
+
+use std::os::unix::fs::symlink;
+use std::process::Stdio;
+
+use crate::common::{Folder, Transcript, program};
+
+#[test]
+fn outputs_that_cannot_be_written() {
+    let folder = Folder::kitchen();
+    std::fs::create_dir(folder.path("folder")).expect("made");
+    let mut transcript = Transcript::default();
+    for command in [
+        "learn K/demos --types K/types.pddl -o none/m.json",
+        "learn K/demos --types K/types.pddl -o folder",
+        "learn K/demos --types K/types.pddl -o kitchen.json/m.json",
+        "learn K/demos --types K/types.pddl -o /proc/m.json",
+        "run kitchen.json K/tasks/T1.1.json --kitchen --events none/e.jsonl",
+        "kitchen export /proc/K",
+    ] {
+        transcript.add(command, &folder.refuses(31, command));
+    }
+    let planned = folder.run("plan kitchen.json K/tasks/T1.1.json -o none/t.plan");
+    assert_eq!(planned.code, 31);
+    transcript.add("a plan is printed all the same", &planned);
+    insta::assert_snapshot!(transcript.0);
+}
+
+#[test]
+fn a_folder_that_may_not_be_written_to() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = Folder::kitchen();
+    let locked = folder.path("locked");
+    std::fs::create_dir(&locked).expect("made");
+    folder.write("locked/m.json", "an earlier model");
+    std::fs::set_permissions(&locked, std::fs::Permissions::from_mode(0o555)).expect("locked");
+    let may_anyway = std::fs::write(locked.join("probe"), "").is_ok();
+    if may_anyway {
+        println!("skipped: whoever runs this may write anywhere");
+        return;
+    }
+    let ended = folder.refuses(31, "learn K/demos --types K/types.pddl -o locked/m.json");
+    assert_eq!(ended.err, "error: locked/m.json: access is not permitted\n");
+    assert_eq!(folder.read("locked/m.json"), "an earlier model");
+}
+
+#[test]
+fn links_stay_links_and_permissions_stay() {
+    let folder = Folder::kitchen();
+    folder.write("real.json", "an earlier model");
+    symlink("real.json", folder.path("link.json")).expect("linked");
+    symlink("later.json", folder.path("dangling.json")).expect("linked");
+    for (link, real) in [("link.json", "real.json"), ("dangling.json", "later.json")] {
+        folder.run(&format!("learn K/demos --types K/types.pddl -o {link}")).succeeds();
+        assert!(folder.path(link).symlink_metadata().expect("there").is_symlink(), "{link}");
+        assert!(folder.read(real) == folder.read("kitchen.json"));
+    }
+    assert_eq!(folder.names(), ["K", "dangling.json", "kitchen.json", "later.json", "link.json", "real.json"]);
+}
+
+#[test]
+fn a_plan_for_the_terminal() {
+    let folder = Folder::kitchen();
+    let ended = folder.run("plan kitchen.json K/tasks/T1.1.json -o /dev/stdout");
+    ended.succeeds();
+    assert!(ended.out.contains("(place-plate-food agent_1 plate_1 lettuce_1)\n; cost = 5"), "{ended}");
+}
+
+/// What a command does whose output nobody reads.
+#[test]
+fn nobody_reads_on() {
+    let folder = Folder::kitchen();
+    for command in [
+        "demo",
+        "learn K/demos --types K/types.pddl -o m.json -q",
+        "learn K/demos --types K/types.pddl --dry-run -q",
+        "show kitchen.json",
+        "show kitchen.json --pddl",
+        "plan kitchen.json K/tasks/T1.1.json --plans 3 -o t -q",
+        "plan kitchen.json K/tasks/T1.1.json --json",
+        "run kitchen.json K/tasks/T1.1.json --kitchen -q",
+        "kitchen draw",
+        "kitchen replay K/demos/cut_lettuce.jsonl",
+        "--help",
+    ] {
+        let (reader, writer) = std::io::pipe().expect("a pipe");
+        drop(reader);
+        let mut program = program(command);
+        let child = program.current_dir(folder.path("")).stdout(writer).stderr(Stdio::piped()).spawn();
+        let output = child.expect("it starts").wait_with_output().expect("it ends");
+        let err = String::from_utf8_lossy(&output.stderr);
+        assert_eq!((output.status.code(), err.as_ref()), (Some(0), ""), "{command}");
+    }
+    assert!(folder.read("m.json") == folder.read("kitchen.json"), "the model is written all the same");
+    assert!(folder.names().iter().any(|name| name.starts_with('t')), "so is the plan");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_an_error() {
+    let folder = Folder::kitchen();
+    let full = std::fs::File::options().write(true).open("/dev/full").expect("Linux has it");
+    let child = program("show kitchen.json").current_dir(folder.path("")).stdout(full).stderr(Stdio::piped()).spawn();
+    let output = child.expect("it starts").wait_with_output().expect("it ends");
+    let err = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(31), "{err}");
+    assert!(err.starts_with("error: cannot write to standard output: "), "{err}");
+}

@@ -1,0 +1,35 @@
+//! The JSON Schemas of the files and messages that people and programs exchange.
+
+use schemars::generate::SchemaSettings;
+use schemars::{JsonSchema, Schema};
+use typelift_model::ActionModel;
+use typelift_world::{Answer, Request, TaskFile, TraceLine};
+
+/// Each schema, by the name that its file has. A trace is described by the schema of one of its lines.
+pub fn schemas() -> [(&'static str, serde_json::Value); 5] {
+    [
+        ("trace", schema::<TraceLine<'_>>("A line of a trace, format trace/1")),
+        ("task", schema::<TaskFile>("A task, format task/1")),
+        ("model", schema::<ActionModel>("A model, format model/1")),
+        ("env-request", schema::<Request>("A request to an environment, protocol env/1")),
+        ("env-answer", schema::<Answer>("An environment's answer, protocol env/1")),
+    ]
+}
+
+fn schema<T: JsonSchema>(title: &str) -> serde_json::Value {
+    let mut schema: Schema = SchemaSettings::draft2020_12().into_generator().into_root_schema_for::<T>();
+    schema.insert("title".to_owned(), title.into());
+    let mut value = schema.to_value();
+    unlink(&mut value);
+    value
+}
+
+/// Descriptions are documentation comments; their links mean nothing here.
+fn unlink(value: &mut serde_json::Value) {
+    match value {
+        serde_json::Value::String(text) => *text = text.replace("[`", "`").replace("`]", "`"),
+        serde_json::Value::Array(values) => values.iter_mut().for_each(unlink),
+        serde_json::Value::Object(map) => map.values_mut().for_each(unlink),
+        _ => {}
+    }
+}
