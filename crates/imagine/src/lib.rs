@@ -90,11 +90,7 @@ pub fn imagine(
     budget: &Budget,
 ) -> Result<Imagination, Cut> {
     let ground = ground(model, task, restrictions, TieOrder::default(), budget)?;
-    let mut reached: HashMap<Symbol, Vec<GroundAtom>> = HashMap::default();
-    for atom in ground.reached_facts().map(|fact| ground.atom(fact)) {
-        reached.entry(atom.predicate.clone()).or_default().push(atom);
-    }
-    let context = Context { model, task, restrictions, reached };
+    let context = Context { model, task, restrictions, reached: ground.reached_by_predicate() };
     let mut queue: VecDeque<GroundAtom> = ground.unreachable_goals().iter().cloned().collect();
     let mut met: BTreeSet<GroundAtom> = queue.iter().cloned().collect();
     let mut imagination = Imagination::default();

@@ -124,11 +124,7 @@ pub(crate) fn unreachable(
     restrictions: &Restrictions,
     ground: &GroundTask,
 ) -> Vec<UnreachableGoal> {
-    let mut reached: HashMap<Symbol, Vec<GroundAtom>> = HashMap::default();
-    for atom in ground.reached_facts().map(|fact| ground.atom(fact)) {
-        reached.entry(atom.predicate.clone()).or_default().push(atom);
-    }
-    let context = Context { model, task, restrictions, reached };
+    let context = Context { model, task, restrictions, reached: ground.reached_by_predicate() };
     let nearest = |atom: &GroundAtom| {
         let candidates = model.actions.iter().flat_map(|schema| schema.adds().map(move |add| (schema, add)));
         let fitting = candidates.filter(|(_, add)| add.predicate == atom.predicate && add.arity() == atom.arity());

@@ -5,7 +5,7 @@
 
 use std::collections::BTreeSet;
 
-use typelift_model::{ActionModel, ActionSchema, Budget, GroundAtom, HashSet, Step, Symbol, Task};
+use typelift_model::{ActionModel, ActionSchema, Budget, GroundAtom, HashMap, HashSet, Step, Symbol, Task};
 
 use crate::Restrictions;
 use crate::fact::{FactId, Facts};
@@ -257,6 +257,15 @@ impl GroundTask {
     /// Whether the atom is reachable if nothing is ever deleted.
     pub fn reaches(&self, atom: &GroundAtom) -> bool {
         self.facts.find(atom).is_some_and(|fact| self.facts.is_reached(fact))
+    }
+
+    /// The atoms of the reachable facts, by predicate.
+    pub fn reached_by_predicate(&self) -> HashMap<Symbol, Vec<GroundAtom>> {
+        let mut by_predicate: HashMap<Symbol, Vec<GroundAtom>> = HashMap::default();
+        for atom in self.reached_facts().map(|fact| self.atom(fact)) {
+            by_predicate.entry(atom.predicate.clone()).or_default().push(atom);
+        }
+        by_predicate
     }
 
     /// Every reachable fact, in the order in which it was numbered.

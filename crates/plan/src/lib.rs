@@ -15,6 +15,7 @@ mod fact;
 mod ground;
 pub mod heuristic;
 mod landmark;
+mod pattern;
 mod planner;
 mod reach;
 mod restrict;

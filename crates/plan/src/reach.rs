@@ -10,9 +10,10 @@
 use std::collections::BTreeSet;
 
 use thiserror::Error;
-use typelift_model::{ActionModel, ActionSchema, Budget, GroundAtom, HashMap, LiftedAtom, Stop, Symbol, Task, Term};
+use typelift_model::{ActionModel, ActionSchema, Budget, GroundAtom, HashMap, Stop, Symbol, Task};
 
 use crate::fact::{FactId, Facts, ObjectId};
+use crate::pattern::{Arg, Compiled, Pattern, compile};
 use crate::{Ban, Restrictions};
 
 /// How often, in joins and ground actions, the budget is asked whether to stop.
@@ -46,30 +47,6 @@ pub(crate) struct RawEffect {
     pub(crate) negative_condition: Vec<FactId>,
     pub(crate) fact: FactId,
     pub(crate) adds: bool,
-}
-
-/// An atom pattern with interned names.
-#[derive(Debug, Clone)]
-struct Pattern {
-    predicate: u32,
-    args: Vec<Arg>,
-}
-
-#[derive(Debug, Clone, Copy)]
-enum Arg {
-    Param(usize),
-    Object(ObjectId),
-}
-
-/// A schema with interned names.
-struct Compiled<'a> {
-    index: usize,
-    schema: &'a ActionSchema,
-    preconditions: Vec<Pattern>,
-    negative: Vec<Pattern>,
-    effects: Vec<(Vec<Pattern>, Vec<Pattern>, Pattern, bool)>,
-    /// For each parameter, whether each object may take its place.
-    fits: Vec<Vec<bool>>,
 }
 
 /// Everything reachable.
@@ -140,46 +117,6 @@ pub(crate) fn reach(
         }
     }
     Ok(Reached { facts: join.facts, ops: join.ops })
-}
-
-/// A schema with names interned; `None` if it mentions a constant that the task does not have.
-fn compile<'a>(
-    index: usize,
-    schema: &'a ActionSchema,
-    model: &ActionModel,
-    restrictions: &Restrictions,
-    facts: &mut Facts,
-) -> Option<Compiled<'a>> {
-    fn pattern(atom: &LiftedAtom, facts: &mut Facts) -> Option<Pattern> {
-        let args = atom.args.iter().map(|term| match term {
-            Term::Param(i) => Some(Arg::Param(*i as usize)),
-            Term::Const(name) => facts.object_id(name).map(Arg::Object),
-        });
-        let args = args.collect::<Option<_>>()?;
-        Some(Pattern { predicate: facts.predicate_id(&atom.predicate), args })
-    }
-    let (mut preconditions, mut negative) = (Vec::new(), Vec::new());
-    for literal in &schema.preconditions {
-        let list = if literal.positive { &mut preconditions } else { &mut negative };
-        list.push(pattern(&literal.atom, facts)?);
-    }
-    let mut effects = Vec::with_capacity(schema.effects.len());
-    for effect in &schema.effects {
-        let (mut condition, mut negative_condition) = (Vec::new(), Vec::new());
-        for literal in &effect.condition {
-            let list = if literal.positive { &mut condition } else { &mut negative_condition };
-            list.push(pattern(&literal.atom, facts)?);
-        }
-        effects.push((condition, negative_condition, pattern(&effect.literal.atom, facts)?, effect.literal.positive));
-    }
-    let fits = schema.parameters.iter().map(|parameter| {
-        let objects = facts.objects.iter();
-        objects
-            .map(|(name, ty)| model.hierarchy.is_a(*ty, parameter.ty) && restrictions.allows(name, &schema.call.name))
-            .collect()
-    });
-    let fits = fits.collect();
-    Some(Compiled { index, schema, preconditions, negative, effects, fits })
 }
 
 /// An effect whose condition is not reached yet.
