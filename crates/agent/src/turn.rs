@@ -43,7 +43,8 @@ pub enum Input {
         /// What is observed now.
         state: State,
     },
-    /// Whoever executes did not finish in time.
+    /// Whoever executes did not finish in time, but can be observed: for a robot's own loop. [`run`](crate::run) treats a
+    /// world that does not answer as failed.
     TimedOut,
     /// End the episode.
     Stop,
