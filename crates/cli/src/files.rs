@@ -52,3 +52,25 @@ pub(crate) fn task_name(path: &Path) -> String {
 pub(crate) fn read_run_task(path: &Path) -> Result<TaskFile, Failure> {
     Ok(read_task(path)?)
 }
+
+/// Refuses to write over what is read.
+pub(crate) fn keep_inputs<'a>(
+    output: Option<&Path>,
+    inputs: impl IntoIterator<Item = &'a PathBuf>,
+) -> Result<(), Failure> {
+    let Some(output) = output else { return Ok(()) };
+    // A file that is not there yet is no input.
+    let Ok(written) = output.canonicalize() else { return Ok(()) };
+    // Of a folder, demonstrations are read.
+    let is_trace = written.extension().is_some_and(|ending| ending == "jsonl" || ending == "trajectory");
+    for input in inputs {
+        let is_read = |read: PathBuf| read == written || is_trace && written.parent() == Some(&read);
+        if written.is_file() && input.canonicalize().is_ok_and(is_read) {
+            return Err(Failure::bad_input(format!("{} is read, and would be written over", output.display()))
+                .with_hint(
+                    "name another file to write to; a pattern such as *.jsonl after -o is expanded by the shell",
+                ));
+        }
+    }
+    Ok(())
+}

@@ -11,6 +11,7 @@ use typelift::world::{Dataset, ObjectTypes, read_dataset, read_hierarchy, write_
 
 use crate::exit::Exit;
 use crate::failure::{Failure, or_one_of};
+use crate::files::keep_inputs;
 use crate::style::{HEAD, HINT, WARNING, count, wrapped};
 
 /// Learn actions from demonstrations
@@ -70,6 +71,8 @@ struct Report {
 
 impl Learn {
     pub(crate) fn run(&self, quiet: bool) -> Result<Exit, Failure> {
+        let inputs = self.traces.iter().chain([&self.types]).chain(&self.problems).chain(&self.objects);
+        keep_inputs(self.output.as_deref(), inputs)?;
         let hierarchy = read_hierarchy(&self.types)?;
         let ignore = self.ignore.iter().filter(|name| !name.is_empty()).map(|name| Symbol::new(name)).collect();
         let types = match (&self.problems, &self.objects) {

@@ -69,13 +69,19 @@ pub(crate) struct Interrupt {
 
 type Hook = Box<dyn Fn() + Send>;
 
+/// A second request to stop counts as one only after this time.
+const REPETITION: Duration = Duration::from_millis(500);
+
 impl Interrupt {
     /// Catches Ctrl-C from now on; a second one ends the program at once.
     pub(crate) fn install() -> Result<Self, Failure> {
         let interrupt = Self::default();
         let Self { raised, hooks } = interrupt.clone();
+        let mut first: Option<Instant> = None;
         ctrlc::set_handler(move || {
-            let again = raised.swap(true, Ordering::SeqCst);
+            raised.store(true, Ordering::SeqCst);
+            // `timeout` and shells signal a program and its group: a repetition at once is the same request.
+            let again = first.get_or_insert_with(Instant::now).elapsed() > REPETITION;
             for hook in hooks.lock().iter().flat_map(|hooks| hooks.iter()) {
                 hook();
             }

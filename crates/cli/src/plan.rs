@@ -13,7 +13,7 @@ use typelift::world::write_file;
 
 use crate::exit::Exit;
 use crate::failure::{Failure, cut_exit};
-use crate::files::{read_model, read_planning_task};
+use crate::files::{keep_inputs, read_model, read_planning_task};
 use crate::limits::{Clock, Interrupt, Limits};
 use crate::plan_text::{imagined_note, numbered_steps, plan_file, plan_size};
 use crate::style::{BAD, HEAD, HINT, count};
@@ -95,6 +95,7 @@ impl Plan {
     pub(crate) fn run(&self, clock: Clock, quiet: bool) -> Result<Exit, Failure> {
         let interrupt = Interrupt::install()?;
         let budget = self.limits.budget(clock, &interrupt);
+        keep_inputs(self.output.as_deref(), [&self.model, &self.task].into_iter().chain(&self.types))?;
         let model = read_model(&self.model, self.types.as_ref())?;
         let task = read_planning_task(&self.task, &model)?;
         let begun = clock.elapsed();

@@ -17,7 +17,7 @@ use typelift_kitchen::Kitchen;
 use crate::account::{report, summary};
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::files::{read_model, read_run_task, task_name};
+use crate::files::{keep_inputs, read_model, read_run_task, task_name};
 use crate::goal_check::GoalCheck;
 use crate::limits::{Clock, Interrupt, Limits, parse_duration, parse_whole};
 use crate::narrate::Narrator;
@@ -118,6 +118,7 @@ enum Which {
 impl Run {
     pub(crate) fn run(&self, clock: Clock, quiet: bool) -> Result<Exit, Failure> {
         let interrupt = Interrupt::install()?;
+        keep_inputs(self.events.as_deref(), self.tasks.iter().chain([&self.model]).chain(&self.types))?;
         let model = Arc::new(read_model(&self.model, self.types.as_ref())?);
         let mut tasks = Vec::with_capacity(self.tasks.len());
         for path in &self.tasks {

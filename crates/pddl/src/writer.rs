@@ -93,11 +93,13 @@ impl Writer<'_> {
         let negative = actions
             .iter()
             .any(|a| a.preconditions.iter().any(negated) || a.effects.iter().any(|e| e.condition.iter().any(negated)));
+        let unequal = actions.iter().any(|a| self.inequalities(a).next().is_some());
         let used = [
             (":strips", true),
             (":typing", self.hierarchy().len() > 1),
-            (":negative-preconditions", negative),
-            (":equality", actions.iter().any(|a| self.inequalities(a).next().is_some())),
+            // `(not (= …))` is a negative precondition too.
+            (":negative-preconditions", negative || unequal),
+            (":equality", unequal),
             (":conditional-effects", actions.iter().any(|a| a.effects.iter().any(|e| !e.condition.is_empty()))),
             (":action-costs", self.has_costs()),
         ];

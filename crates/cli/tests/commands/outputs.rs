@@ -107,3 +107,23 @@ fn a_full_disk_is_an_error() {
     assert_eq!(output.status.code(), Some(31), "{err}");
     assert!(err.starts_with("error: cannot write to standard output: "), "{err}");
 }
+
+#[test]
+fn what_is_read_is_not_written_over() {
+    let folder = Folder::kitchen();
+    let names = ["K/demos/cut_lettuce.jsonl", "K/types.pddl", "kitchen.json", "K/tasks/T1.1.json"];
+    let before = names.map(|name| folder.read(name));
+    for command in [
+        "learn K/demos --types K/types.pddl -o K/demos/cut_lettuce.jsonl",
+        "learn K/demos/cut_lettuce.jsonl --types K/types.pddl -o K/demos/../demos/cut_lettuce.jsonl",
+        "learn K/demos --types K/types.pddl -o K/types.pddl",
+        "plan kitchen.json K/tasks/T1.1.json -o kitchen.json",
+        "plan kitchen.json K/tasks/T1.1.json -o K/tasks/T1.1.json",
+        "run kitchen.json K/tasks/T1.1.json --kitchen --events K/tasks/T1.1.json",
+    ] {
+        let refused = folder.refuses(31, command);
+        assert!(refused.err.contains("is read, and would be written over"), "{command}: {}", refused.err);
+    }
+    assert_eq!(names.map(|name| folder.read(name)), before);
+    folder.run("learn K/demos --types K/types.pddl -o kitchen.json").succeeds();
+}
