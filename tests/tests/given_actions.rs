@@ -62,3 +62,41 @@ fn what_is_banned_is_not_planned_again() {
         assert!(explanation.to_string().contains("was tried and failed"), "{explanation}");
     }
 }
+
+#[test]
+fn goals_that_exclude_each_other_are_not_searched_for() {
+    let action = |name: &str, effects: &[(&str, bool)]| ActionSchema {
+        name: name.into(),
+        call: LiftedCall { name: name.into(), args: Vec::new() },
+        parameters: Vec::new(),
+        preconditions: Vec::new(),
+        distinct: Vec::new(),
+        effects: effects
+            .iter()
+            .map(|&(atom, positive)| Effect::always(Literal { atom: lifted(atom), positive }))
+            .collect(),
+        cost: 1,
+        provenance: Provenance::Given,
+    };
+    let cut = action("cut", &[("cut()", true), ("whole()", false)]);
+    let mend = action("mend", &[("whole()", true)]);
+    let left = action("left", &[("left()", true), ("right()", false)]);
+    let right = action("right", &[("right()", true), ("left()", false)]);
+    let outcome = |actions: &[&ActionSchema], init: &[&str], goal: &[&str]| {
+        let model = ActionModel { actions: actions.iter().map(|&a| a.clone()).collect(), ..ActionModel::default() };
+        let ground = |texts: &[&str]| texts.iter().map(|t| GroundAtom::parse(t).expect("an atom")).collect::<Vec<_>>();
+        let mut task = Task { goal: ground(goal), ..Task::default() };
+        task.init.atoms.extend(ground(init));
+        let (none, no_limit) = (Restrictions::default(), Budget::unlimited());
+        let mut planner = Planner::new(&model, &task, &none, &Default::default(), &no_limit).expect("no limits");
+        let solved = matches!(planner.next_plan(&no_limit), Outcome::Solved(_));
+        (solved, planner.report().expansions, if solved { String::new() } else { planner.explain().to_string() })
+    };
+    let (solved, expansions, why) = outcome(&[&cut], &["whole()"], &["cut()", "whole()"]);
+    assert!(!solved && expansions == 0 && why.contains("cannot hold together"), "{why}");
+    let (solved, expansions, _) = outcome(&[&left, &right], &[], &["left()", "right()"]);
+    assert!(!solved && expansions == 0);
+    // What can be mended, or holds already, excludes nothing.
+    assert!(outcome(&[&cut, &mend], &["whole()"], &["cut()", "whole()"]).0);
+    assert!(outcome(&[&cut], &["whole()", "cut()"], &["cut()", "whole()"]).0);
+}

@@ -111,6 +111,10 @@ impl Plan {
             let Outcome::Solved(plan) = outcome else { break outcome };
             let number = plans.len() + 1;
             plans.push(plan.clone());
+            if self.better {
+                // What is found is safe, however the search ends.
+                self.write_plans(&plans, &proposal.model, &task)?;
+            }
             if !self.json {
                 let took = clock.elapsed() - begun;
                 if let Err(failure) = self.print(&mut out, number, &plan, &proposal, &model, took) {

@@ -76,6 +76,13 @@ pub struct UnreachableGoal {
 pub enum Explanation {
     /// Some goal atoms cannot be reached at all.
     Unreachable(Vec<UnreachableGoal>),
+    /// Two goal atoms exclude each other: whatever achieves the one deletes the other for good.
+    Exclusive {
+        /// The one.
+        one: GroundAtom,
+        /// The other.
+        other: GroundAtom,
+    },
     /// Each goal atom can be reached, but not all together; where the search came closest, these were missing.
     NotTogether {
         /// The missing goal atoms.
@@ -104,6 +111,9 @@ impl fmt::Display for Explanation {
                     }
                 }
                 Ok(())
+            }
+            Self::Exclusive { one, other } => {
+                write!(f, "{one} and {other} cannot hold together: whatever achieves the one deletes the other")
             }
             Self::NotTogether { missing } => {
                 let missing: Vec<String> = missing.iter().map(ToString::to_string).collect();

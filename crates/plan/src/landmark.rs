@@ -58,6 +58,30 @@ pub fn landmark_sequences(task: &GroundTask, budget: &Budget) -> Result<Vec<Land
     Ok(sequences)
 }
 
+/// Two goal facts that cannot hold together: one does not hold initially, and everything that achieves it deletes the
+/// other, which nothing adds again; or each is deleted by everything that achieves the other, and neither holds initially.
+pub(crate) fn exclusive_goals(task: &GroundTask) -> Option<(FactId, FactId)> {
+    let goal = task.goal();
+    let mut achievers: Vec<Vec<&Op>> = vec![Vec::new(); goal.len()];
+    for (_, op) in task.ops() {
+        for (fact, _) in added(op) {
+            if let Ok(place) = goal.binary_search(&fact) {
+                achievers[place].push(op);
+            }
+        }
+    }
+    let initial: Vec<bool> = goal.iter().map(|fact| task.init().contains(fact)).collect();
+    let destroys = |achieved: usize, other: usize| {
+        achievers[achieved].iter().all(|op| op.deletes.binary_search(&goal[other]).is_ok())
+    };
+    let pairs = (0..goal.len()).flat_map(|a| (0..goal.len()).map(move |b| (a, b)));
+    let exclude = |&(a, b): &(usize, usize)| {
+        let gone_for_good = achievers[b].is_empty();
+        a != b && !initial[a] && destroys(a, b) && (gone_for_good || !initial[b] && destroys(b, a))
+    };
+    pairs.into_iter().find(exclude).map(|(a, b)| (goal[a], goal[b]))
+}
+
 fn poll(budget: &Budget) -> Result<(), Cut> {
     budget.stopped().map_or(Ok(()), |stop| Err(Cut::Stopped(stop)))
 }

@@ -6,7 +6,7 @@ use crate::Restrictions;
 use crate::explain::{Explanation, unreachable};
 use crate::ground::{GroundTask, TieOrder, ground};
 use crate::heuristic::OrderedLandmarks;
-use crate::landmark::landmark_sequences;
+use crate::landmark::{exclusive_goals, landmark_sequences};
 use crate::reach::Cut;
 use crate::search::{Outcome, Report, Search};
 use crate::successor::holds;
@@ -33,7 +33,9 @@ pub struct Planner {
     task: Task,
     restrictions: Restrictions,
     ground: GroundTask,
-    /// `None` if a goal is unreachable: there is nothing to search.
+    /// Two goals that cannot hold together.
+    exclusive: Option<(GroundAtom, GroundAtom)>,
+    /// `None` if a goal is unreachable, or two exclude each other: there is nothing to search.
     search: Option<Search>,
 }
 
@@ -52,14 +54,15 @@ impl Planner {
         budget: &Budget,
     ) -> Result<Self, Cut> {
         let ground = ground(model, task, restrictions, options.tie_order, budget)?;
-        let search = if ground.unreachable_goals().is_empty() {
+        let exclusive = exclusive_goals(&ground).map(|(a, b)| (ground.atom(a), ground.atom(b)));
+        let search = if ground.unreachable_goals().is_empty() && exclusive.is_none() {
             let heuristic = OrderedLandmarks::new(landmark_sequences(&ground, budget)?);
             Some(Search::new(&ground, Box::new(heuristic), options.plans))
         } else {
             None
         };
         let (model, task, restrictions) = (model.clone(), task.clone(), restrictions.clone());
-        Ok(Self { model, task, restrictions, ground, search })
+        Ok(Self { model, task, restrictions, ground, exclusive, search })
     }
 
     /// The next plan: one whose multiset of actions was not found before. The budget's expansions are for this call.
@@ -103,6 +106,9 @@ impl Planner {
     /// Why no plan was found.
     pub fn explain(&self) -> Explanation {
         let Some(search) = &self.search else {
+            if let (Some((one, other)), []) = (&self.exclusive, self.ground.unreachable_goals()) {
+                return Explanation::Exclusive { one: one.clone(), other: other.clone() };
+            }
             return Explanation::Unreachable(unreachable(&self.model, &self.task, &self.restrictions, &self.ground));
         };
         let missing = |state: &[u64]| -> Vec<GroundAtom> {
