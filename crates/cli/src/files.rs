@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use typelift::model::{ActionModel, ModelFileError, Task};
-use typelift::world::{FileError, Parser, TaskFile, read_task, read_text, read_types};
+use typelift::world::{FileError, Parser, read_task, read_text, read_types};
 
 use crate::exit::Exit;
 use crate::failure::{Failure, NOT_AS_WRITTEN};
@@ -46,11 +46,6 @@ pub(crate) fn read_planning_task(path: &Path, model: &ActionModel) -> Result<Tas
 /// A task's name, for people: its file's, without folders and ending.
 pub(crate) fn task_name(path: &Path) -> String {
     path.file_stem().map_or_else(|| path.display().to_string(), |stem| stem.to_string_lossy().into_owned())
-}
-
-/// Reads a task file for an environment.
-pub(crate) fn read_run_task(path: &Path) -> Result<TaskFile, Failure> {
-    Ok(read_task(path)?)
 }
 
 /// Refuses to write over what is read.

@@ -11,13 +11,13 @@ use typelift::agent::{Confirmation, Ending, Episode, Experience, Options, run};
 use typelift::bridge::Bridge;
 use typelift::imagine;
 use typelift::model::{ActionModel, Plan};
-use typelift::world::{FileError, Parser, Reset, Scene, TaskFile, World, WorldError};
+use typelift::world::{FileError, Parser, Reset, Scene, TaskFile, World, WorldError, read_task};
 use typelift_kitchen::Kitchen;
 
 use crate::account::{report, summary};
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::files::{keep_inputs, read_model, read_run_task, task_name};
+use crate::files::{keep_inputs, read_model, task_name};
 use crate::goal_check::GoalCheck;
 use crate::limits::{Clock, Interrupt, Limits, parse_duration, parse_whole};
 use crate::narrate::Narrator;
@@ -122,7 +122,7 @@ impl Run {
         let model = Arc::new(read_model(&self.model, self.types.as_ref())?);
         let mut tasks = Vec::with_capacity(self.tasks.len());
         for path in &self.tasks {
-            tasks.push((path, read_run_task(path)?));
+            tasks.push((path, read_task(path)?));
         }
         let mut world = self.open(&interrupt)?;
         if self.restart && !world.can_reset() {

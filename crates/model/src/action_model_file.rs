@@ -226,12 +226,16 @@ impl ActionModel {
     /// The model as JSON text, ending in a line feed; equal models give equal bytes.
     ///
     /// # Errors
-    /// [`ModelFileError::Collision`] if its names collide in PDDL.
-    ///
-    /// # Panics
-    /// If an action refers to a cluster that is not in the evidence: learners never make such a model.
+    /// [`ModelFileError::Collision`] if its names collide in PDDL, [`ModelFileError::Inconsistent`] if an action refers
+    /// to a cluster that is not in the evidence.
     pub fn to_json(&self) -> Result<String, ModelFileError> {
         let names = self.pddl_names()?;
+        for action in &self.actions {
+            if action.provenance.sources().iter().any(|s| !self.evidence.clusters.contains_key(&s.cluster)) {
+                let message = "it rests on a cluster that is not in the evidence".to_owned();
+                return Err(ModelFileError::Inconsistent { place: format!("action {}", action.name), message });
+            }
+        }
         let map = |names: &crate::PddlNames| names.iter().map(|(n, p)| (n.clone(), p.clone())).collect();
         let clusters: Vec<&ClusterKey> = self.evidence.clusters.keys().collect();
         let file = ModelFile {
@@ -260,7 +264,7 @@ fn write_literal(literal: &Literal) -> LiteralFile {
 
 fn write_action(action: &ActionSchema, hierarchy: &Hierarchy, clusters: &[&ClusterKey]) -> ActionFile {
     let source = |s: &Source| SourceFile {
-        cluster: clusters.binary_search(&&s.cluster).expect("an action's cluster is in the evidence"),
+        cluster: clusters.binary_search(&&s.cluster).expect("checked before writing"),
         map: s.map.clone(),
     };
     let replaced = |list: &[Replacement]| {
