@@ -41,6 +41,13 @@ impl fmt::Display for Symbol {
     }
 }
 
+impl Default for Symbol {
+    /// The empty text, which names nothing.
+    fn default() -> Self {
+        Self::new("")
+    }
+}
+
 impl From<&str> for Symbol {
     fn from(text: &str) -> Self {
         Self::new(text)

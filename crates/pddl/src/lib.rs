@@ -18,6 +18,7 @@ mod error;
 mod objects;
 mod position;
 mod sexpr;
+mod syntax;
 mod trajectory;
 mod typed_list;
 mod types;
@@ -28,6 +29,9 @@ pub use error::{PddlError, Related};
 pub use objects::{Declarations, ObjectDeclaration, read_objects};
 pub use position::{Position, Span};
 pub use sexpr::{Children, Document, Sexpr};
+pub use syntax::{
+    Action, Amount, Derived, Domain, Formula, MOST_NESTED, PddlAtom, PddlEffect, PddlTerm, Problem, Signature, Typed,
+};
 pub use trajectory::{Trajectory, TrajectoryAction, TrajectoryState, read_trajectory};
 pub use typed_list::{TypedName, read_typed_list};
 pub use types::{TypeEdge, hierarchy_from_types, locate_hierarchy_error, read_hierarchy, read_types};
