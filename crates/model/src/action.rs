@@ -4,12 +4,11 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
-use crate::{ClusterKey, GroundAtom, Hierarchy, Imagined, LiftedAtom, State, Step, Symbol, Term, TypeId};
+use crate::{GroundAtom, Hierarchy, Imagined, LiftedAtom, Provenance, Step, Symbol, Term, TypeId};
 
 /// A typed placeholder of an [`ActionSchema`].
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Parameter {
     /// Its name, without the question mark; unique within the action.
     pub name: Symbol,
@@ -60,12 +59,25 @@ pub struct Effect {
     pub condition: Vec<Literal>,
     /// An add effect if positive, else a delete effect.
     pub literal: Literal,
+    /// Placeholders of its own, for each choice of which it happens; numbered after the action's parameters. Learned
+    /// effects have none.
+    pub parameters: Vec<Parameter>,
 }
 
 impl Effect {
     /// An unconditional effect.
     pub fn always(literal: Literal) -> Self {
-        Self { condition: Vec::new(), literal }
+        Self::when(Vec::new(), literal)
+    }
+
+    /// An effect with a condition.
+    pub fn when(condition: Vec<Literal>, literal: Literal) -> Self {
+        Self { condition, literal, parameters: Vec::new() }
+    }
+
+    /// Whether it depends on nothing.
+    pub fn is_unconditional(&self) -> bool {
+        self.condition.is_empty() && self.parameters.is_empty()
     }
 }
 
@@ -104,76 +116,32 @@ impl fmt::Debug for GroundCall {
     }
 }
 
-/// A cluster of observations, as seen from an action that rests on it.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Source {
-    /// The cluster.
-    pub cluster: ClusterKey,
-    /// For each parameter of the cluster, the parameter of the action it corresponds to.
-    pub map: Vec<u32>,
+/// What an action costs: a fixed part, and values that the task gives for objects, as the length of a road.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Cost {
+    /// The fixed part.
+    pub fixed: u32,
+    /// Functions whose values are added. Where the task gives none, the action cannot be used.
+    pub functions: Vec<LiftedAtom>,
 }
 
-/// A parameter whose type was raised.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Replacement {
-    /// The parameter's index.
-    pub parameter: u32,
-    /// The type it had.
-    pub from: TypeId,
-    /// The type it has.
-    pub to: TypeId,
-}
+impl Cost {
+    /// The cost of learned actions.
+    pub const UNIT: Self = Self { fixed: 1, functions: Vec::new() };
 
-/// Where an action comes from: the answer to "why?".
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Provenance {
-    /// Written by somebody, as in a PDDL domain.
-    Given,
-    /// Learned from one cluster of observations (an *individual* action).
-    Demonstrated(Source),
-    /// Generalized from several individual actions, sorted.
-    Generalized(Vec<Source>),
-    /// Imagined for an atom that could not be reached (Algorithm 2).
-    Imagined {
-        /// The learned action it raises.
-        from: Symbol,
-        /// The raised parameters.
-        replaced: Vec<Replacement>,
-        /// The unreachable atom it was imagined for.
-        goal: GroundAtom,
-        /// Observations behind the learned action.
-        observations: u64,
-    },
-    /// Made to follow an imagined action, taking over its replacements.
-    Substituted {
-        /// The learned action it raises.
-        from: Symbol,
-        /// The raised parameters.
-        replaced: Vec<Replacement>,
-        /// The imagined action it follows.
-        following: Symbol,
-        /// Observations behind the learned action.
-        observations: u64,
-    },
-}
-
-impl Provenance {
-    /// The learned action, raised parameters and observations of an imagined or substituted action.
-    pub fn imagined(&self) -> Option<(&Symbol, &[Replacement], u64)> {
-        match self {
-            Self::Imagined { from, replaced, observations, .. }
-            | Self::Substituted { from, replaced, observations, .. } => Some((from, replaced, *observations)),
-            Self::Given | Self::Demonstrated(_) | Self::Generalized(_) => None,
-        }
+    /// The cost with these objects in place of the parameters; `None` where a function has no value. Sums stop at the
+    /// largest number.
+    pub fn of(&self, objects: &[Symbol], values: &BTreeMap<GroundAtom, u32>) -> Option<u32> {
+        self.functions.iter().try_fold(self.fixed, |sum, function| {
+            let value = values.get(&function.map(|term| term.object(objects)))?;
+            Some(sum.saturating_add(*value))
+        })
     }
+}
 
-    /// The clusters that a learned action rests on.
-    pub fn sources(&self) -> &[Source] {
-        match self {
-            Self::Demonstrated(source) => std::slice::from_ref(source),
-            Self::Generalized(sources) => sources,
-            Self::Given | Self::Imagined { .. } | Self::Substituted { .. } => &[],
-        }
+impl From<u32> for Cost {
+    fn from(fixed: u32) -> Self {
+        Self { fixed, functions: Vec::new() }
     }
 }
 
@@ -195,74 +163,9 @@ pub struct ActionSchema {
     /// What it changes, sorted.
     pub effects: Vec<Effect>,
     /// Its cost; 1 for learned actions.
-    pub cost: u32,
+    pub cost: Cost,
     /// Where it comes from.
     pub provenance: Provenance,
-}
-
-/// Why an action schema and a list of objects do not make a ground action.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-pub enum InstantiateError {
-    /// The number of objects is not the number of parameters.
-    #[error("{action} takes {expected} objects, not {found}")]
-    Arity {
-        /// The action's name.
-        action: Symbol,
-        /// Its number of parameters.
-        expected: usize,
-        /// The number of objects given.
-        found: usize,
-    },
-    /// An object that the state does not have.
-    #[error("there is no object `{object}`")]
-    UnknownObject {
-        /// The object's name.
-        object: Symbol,
-    },
-    /// An object of the wrong type.
-    #[error("{object} is of type {found}, where {action} takes one of type {expected}")]
-    Type {
-        /// The action's name.
-        action: Symbol,
-        /// The object's name.
-        object: Symbol,
-        /// The parameter's type.
-        expected: Symbol,
-        /// The object's type.
-        found: Symbol,
-    },
-    /// One object for two parameters that must differ.
-    #[error("{action} takes different objects where both are {object}")]
-    NotDistinct {
-        /// The action's name.
-        action: Symbol,
-        /// The object's name.
-        object: Symbol,
-    },
-}
-
-/// A ground action whose conditional effects were resolved in the state it was made for.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct GroundAction {
-    /// The schema's name.
-    pub schema: Symbol,
-    /// The objects put in place of the parameters, in order.
-    pub objects: Vec<Symbol>,
-    /// What the environment is told.
-    pub call: GroundCall,
-    /// Preconditions: an atom, and whether it must hold.
-    pub preconditions: Vec<(GroundAtom, bool)>,
-    /// Atoms that it adds, sorted.
-    pub adds: Vec<GroundAtom>,
-    /// Atoms that it deletes and does not add, sorted.
-    pub deletes: Vec<GroundAtom>,
-}
-
-impl GroundAction {
-    /// The preconditions that do not hold in `state`. An unknown atom counts as not holding.
-    pub fn unmet<'a>(&'a self, state: &'a State) -> impl Iterator<Item = &'a (GroundAtom, bool)> {
-        self.preconditions.iter().filter(|(atom, positive)| state.holds(atom) != *positive)
-    }
 }
 
 impl ActionSchema {
@@ -294,11 +197,23 @@ impl ActionSchema {
         (sum, self.parameters.len().max(1) as u64)
     }
 
-    /// The step of a plan that this action is with these objects in place of its parameters.
+    /// How a plan file names the action: a given one by its call, any other by its own name and all of its parameters,
+    /// since one call may have several effects.
+    pub fn signature(&self) -> LiftedCall {
+        match self.provenance {
+            Provenance::Given => self.call.clone(),
+            _ => LiftedCall {
+                name: self.name.clone(),
+                args: (0..self.parameters.len() as u32).map(Term::Param).collect(),
+            },
+        }
+    }
+
+    /// The step of a plan that this action is with these objects in place of its parameters, at this cost.
     ///
     /// # Panics
     /// If there are fewer objects than parameters.
-    pub fn step(&self, objects: Vec<Symbol>) -> Step {
+    pub fn step(&self, objects: Vec<Symbol>, cost: u32) -> Step {
         let imagined = self.provenance.imagined().map(|(from, replaced, observations)| Imagined {
             from: from.clone(),
             replaced: replaced.to_vec(),
@@ -308,63 +223,6 @@ impl ActionSchema {
             name: self.call.name.clone(),
             args: self.call.args.iter().map(|term| term.object(&objects)).collect(),
         };
-        Step { action: self.name.clone(), call, objects, cost: self.cost, imagined }
-    }
-
-    /// Puts objects in place of the parameters. Conditional effects are resolved in `state`; preconditions are not
-    /// checked.
-    ///
-    /// # Errors
-    /// [`InstantiateError`] if number, type or distinctness of the objects does not fit.
-    pub fn instantiate(
-        &self,
-        objects: &[Symbol],
-        state: &State,
-        hierarchy: &Hierarchy,
-    ) -> Result<GroundAction, InstantiateError> {
-        if objects.len() != self.parameters.len() {
-            return Err(InstantiateError::Arity {
-                action: self.name.clone(),
-                expected: self.parameters.len(),
-                found: objects.len(),
-            });
-        }
-        for (object, parameter) in objects.iter().zip(&self.parameters) {
-            let ty =
-                *state.objects.get(object).ok_or_else(|| InstantiateError::UnknownObject { object: object.clone() })?;
-            if !hierarchy.is_a(ty, parameter.ty) {
-                return Err(InstantiateError::Type {
-                    action: self.name.clone(),
-                    object: object.clone(),
-                    expected: hierarchy.name(parameter.ty).clone(),
-                    found: hierarchy.name(ty).clone(),
-                });
-            }
-        }
-        for &(i, j) in &self.distinct {
-            if objects[i as usize] == objects[j as usize] {
-                return Err(InstantiateError::NotDistinct {
-                    action: self.name.clone(),
-                    object: objects[i as usize].clone(),
-                });
-            }
-        }
-        let term = |term: &Term| term.object(objects);
-        let mut changes: BTreeMap<GroundAtom, bool> = BTreeMap::new();
-        for effect in &self.effects {
-            if effect.condition.iter().all(|l| state.holds(&l.atom.map(term)) == l.positive) {
-                let added = changes.entry(effect.literal.atom.map(term)).or_default();
-                *added |= effect.literal.positive;
-            }
-        }
-        let select = |added: bool| changes.iter().filter(|(_, a)| **a == added).map(|(atom, _)| atom.clone()).collect();
-        Ok(GroundAction {
-            schema: self.name.clone(),
-            objects: objects.to_vec(),
-            call: GroundCall { name: self.call.name.clone(), args: self.call.args.iter().map(term).collect() },
-            preconditions: self.preconditions.iter().map(|l| (l.atom.map(term), l.positive)).collect(),
-            adds: select(true),
-            deletes: select(false),
-        })
+        Step { action: self.name.clone(), call, objects, cost, imagined }
     }
 }

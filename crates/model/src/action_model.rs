@@ -3,7 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::{
-    ActionSchema, Evidence, Hierarchy, NameCollision, ParseConfig, PddlNames, Provenance, Replacement, Symbol, TypeId,
+    ActionSchema, Axiom, Evidence, Hierarchy, NameCollision, ParseConfig, PddlNames, Provenance, Replacement, Symbol,
+    TypeId,
 };
 
 /// A symbolic action model (paper: 𝒜 with 𝓗).
@@ -17,8 +18,12 @@ pub struct ActionModel {
     pub parse: ParseConfig,
     /// The type of whoever acts, if there is one: it is not blamed when a step fails.
     pub actor: Option<TypeId>,
+    /// The objects that actions and axioms mention by name, with their types. Every task has them.
+    pub constants: BTreeMap<Symbol, TypeId>,
     /// The actions, with unique names, sorted by name.
     pub actions: Vec<ActionSchema>,
+    /// How derived predicates follow; learned models have none.
+    pub axioms: Vec<Axiom>,
     /// What they rest on.
     pub evidence: Evidence,
 }
@@ -32,6 +37,18 @@ pub struct ModelPddlNames {
     pub predicates: PddlNames,
     /// Of its actions.
     pub actions: PddlNames,
+    /// Of the calls of its given actions.
+    pub calls: PddlNames,
+}
+
+impl ModelPddlNames {
+    /// How plan files name this action of the model: by what its [signature](ActionSchema::signature) is called.
+    pub fn in_plans<'a>(&'a self, action: &'a ActionSchema) -> &'a Symbol {
+        match action.provenance {
+            Provenance::Given => self.calls.pddl(action.call.name.as_str()).unwrap_or(&action.call.name),
+            _ => self.actions.pddl(action.name.as_str()).unwrap_or(&action.name),
+        }
+    }
 }
 
 impl ActionModel {
@@ -59,10 +76,12 @@ impl ActionModel {
     /// # Errors
     /// [`NameCollision`] if two names differ only in what PDDL does not tell apart.
     pub fn pddl_names(&self) -> Result<ModelPddlNames, NameCollision> {
+        let given = self.actions.iter().filter(|action| action.provenance == Provenance::Given);
         Ok(ModelPddlNames {
             types: PddlNames::fold("type", self.hierarchy.types().map(|t| self.hierarchy.name(t)))?,
             predicates: PddlNames::fold("predicate", self.predicates.keys())?,
             actions: PddlNames::fold("action", self.actions.iter().map(|a| &a.name))?,
+            calls: PddlNames::fold("action", given.map(|a| &a.call.name))?,
         })
     }
 

@@ -7,9 +7,9 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::{
-    ActionModel, ActionSchema, Cluster, ClusterKey, Effect, Evidence, GroundAtom, Hierarchy, HierarchyError,
-    LiftedAtom, Literal, NameCollision, NegativeKey, ParseConfig, Provenance, Replacement, Source, Symbol, Unexplained,
-    Witness,
+    ActionModel, ActionSchema, Axiom, Cluster, ClusterKey, Effect, Evidence, GroundAtom, Hierarchy, HierarchyError,
+    LiftedAtom, Literal, NameCollision, NegativeKey, Parameter, ParseConfig, Provenance, Replacement, Source, Symbol,
+    Unexplained, Witness,
 };
 
 /// The format that this version reads and writes.
@@ -80,7 +80,13 @@ pub(crate) struct ModelFile {
     pub(crate) parse: ParseConfig,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) actor: Option<Symbol>,
+    /// Objects that actions and axioms mention by name, with their types.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub(crate) constants: BTreeMap<Symbol, Symbol>,
     pub(crate) actions: Vec<ActionFile>,
+    /// How derived predicates follow.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) axioms: Vec<AxiomFile>,
     #[serde(default)]
     pub(crate) evidence: EvidenceFile,
     /// PDDL names, by the model's names; written for other tools, made anew when the model is read.
@@ -111,6 +117,9 @@ pub(crate) struct ActionFile {
     pub(crate) effects: Vec<EffectFile>,
     #[serde(default = "one")]
     pub(crate) cost: u32,
+    /// Functions of the task whose values are added to the cost.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) cost_functions: Vec<LiftedAtom>,
     pub(crate) provenance: ProvenanceFile,
 }
 
@@ -139,8 +148,24 @@ pub(crate) enum LiteralFile {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(untagged)]
 pub(crate) enum EffectFile {
-    When { when: Vec<LiteralFile>, then: LiteralFile },
+    When {
+        /// `[name, type]` pairs; it happens for each choice of objects. Numbered after the action's parameters.
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        forall: Vec<(Symbol, Symbol)>,
+        when: Vec<LiteralFile>,
+        then: LiteralFile,
+    },
     Always(LiteralFile),
+}
+
+#[derive(Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub(crate) struct AxiomFile {
+    pub(crate) stratum: u32,
+    pub(crate) head: LiftedAtom,
+    /// `[name, type]` pairs.
+    pub(crate) parameters: Vec<(Symbol, Symbol)>,
+    pub(crate) body: Vec<LiteralFile>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -244,6 +269,8 @@ impl ActionModel {
             predicates: self.predicates.clone(),
             parse: self.parse.clone(),
             actor: self.actor.map(|ty| self.hierarchy.name(ty).clone()),
+            constants: self.constants.iter().map(|(n, ty)| (n.clone(), self.hierarchy.name(*ty).clone())).collect(),
+            axioms: self.axioms.iter().map(|a| write_axiom(a, &self.hierarchy)).collect(),
             actions: self.actions.iter().map(|a| write_action(a, &self.hierarchy, &clusters)).collect(),
             evidence: write_evidence(&self.evidence),
             pddl: PddlFile {
@@ -260,6 +287,19 @@ impl ActionModel {
 
 fn write_literal(literal: &Literal) -> LiteralFile {
     if literal.positive { LiteralFile::Is(literal.atom.clone()) } else { LiteralFile::Not(literal.atom.clone()) }
+}
+
+fn write_parameters(parameters: &[Parameter], hierarchy: &Hierarchy) -> Vec<(Symbol, Symbol)> {
+    parameters.iter().map(|p| (p.name.clone(), hierarchy.name(p.ty).clone())).collect()
+}
+
+fn write_axiom(axiom: &Axiom, hierarchy: &Hierarchy) -> AxiomFile {
+    AxiomFile {
+        stratum: axiom.stratum,
+        head: axiom.head.clone(),
+        parameters: write_parameters(&axiom.parameters, hierarchy),
+        body: axiom.body.iter().map(write_literal).collect(),
+    }
 }
 
 fn write_action(action: &ActionSchema, hierarchy: &Hierarchy, clusters: &[&ClusterKey]) -> ActionFile {
@@ -287,9 +327,13 @@ fn write_action(action: &ActionSchema, hierarchy: &Hierarchy, clusters: &[&Clust
             observations: *observations,
         },
     };
-    let effect = |e: &Effect| match e.condition.as_slice() {
-        [] => EffectFile::Always(write_literal(&e.literal)),
-        when => EffectFile::When { when: when.iter().map(write_literal).collect(), then: write_literal(&e.literal) },
+    let effect = |e: &Effect| match e.is_unconditional() {
+        true => EffectFile::Always(write_literal(&e.literal)),
+        false => EffectFile::When {
+            forall: write_parameters(&e.parameters, hierarchy),
+            when: e.condition.iter().map(write_literal).collect(),
+            then: write_literal(&e.literal),
+        },
     };
     ActionFile {
         name: action.name.clone(),
@@ -297,11 +341,12 @@ fn write_action(action: &ActionSchema, hierarchy: &Hierarchy, clusters: &[&Clust
             name: action.call.name.clone(),
             args: action.call.args.iter().map(ToString::to_string).collect(),
         },
-        parameters: action.parameters.iter().map(|p| (p.name.clone(), hierarchy.name(p.ty).clone())).collect(),
+        parameters: write_parameters(&action.parameters, hierarchy),
         preconditions: action.preconditions.iter().map(write_literal).collect(),
         distinct: action.distinct.clone(),
         effects: action.effects.iter().map(effect).collect(),
-        cost: action.cost,
+        cost: action.cost.fixed,
+        cost_functions: action.cost.functions.clone(),
         provenance,
     }
 }

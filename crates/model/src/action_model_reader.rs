@@ -1,14 +1,14 @@
 //! Reading the model's file: everything that a later step relies on is checked here.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Deserialize;
 
-use crate::action_model_file::{ActionFile, EffectFile, LiteralFile, ModelFile, ProvenanceFile, SourceFile};
+use crate::action_model_file::{ActionFile, AxiomFile, EffectFile, LiteralFile, ModelFile, ProvenanceFile, SourceFile};
 use crate::{
-    ActionModel, ActionSchema, ClusterKey, Effect, Evidence, Hierarchy, LiftedAtom, LiftedCall, Literal, MODEL_FORMAT,
-    MOST_PARAMETERS, ModelFileError, Parameter, PreStates, Provenance, Replacement, Source, Symbol, Term, TypeId,
-    check_name, json_message,
+    ActionModel, ActionSchema, Axiom, ClusterKey, Cost, Effect, Evidence, Hierarchy, LiftedAtom, LiftedCall, Literal,
+    MODEL_FORMAT, MOST_PARAMETERS, ModelFileError, Parameter, PreStates, Provenance, Replacement, Source, Symbol, Term,
+    TypeId, check_name, json_message,
 };
 
 /// Preconditions that an action may have.
@@ -57,9 +57,16 @@ impl ActionModel {
             negatives: file.evidence.negatives.into_iter().map(|c| (c.key, c.cluster)).collect(),
             unexplained: file.evidence.unexplained.into_iter().map(|u| (u.reason, (u.count, u.witnesses))).collect(),
         };
-        let model = Self { hierarchy, predicates: file.predicates, parse: file.parse, actor, actions, evidence };
+        let mut constants = BTreeMap::new();
+        for (name, ty) in file.constants {
+            constants.insert(name, type_id(&hierarchy, &ty, || "\"constants\"".to_owned())?);
+        }
+        let axioms = file.axioms.into_iter().map(|axiom| read_axiom(axiom, &hierarchy)).collect::<Result<_, _>>()?;
+        let (predicates, parse) = (file.predicates, file.parse);
+        let model = Self { hierarchy, predicates, parse, actor, constants, actions, axioms, evidence };
         model.check_names()?;
         model.check_arities()?;
+        model.check_axioms()?;
         model.evidence.check(&model.hierarchy)?;
         model.pddl_names()?;
         Ok(model)
@@ -75,6 +82,9 @@ impl ActionModel {
         for (predicate, arity) in &self.predicates {
             named(predicate, "\"predicates\"")?;
             at_most(*arity, MOST_PARAMETERS, "arguments", || format!("predicate {predicate}"))?;
+        }
+        for constant in self.constants.keys() {
+            named(constant, "\"constants\"")?;
         }
         for action in &self.actions {
             let place = format!("action {}", action.name);
@@ -93,18 +103,65 @@ impl ActionModel {
 
     fn check_arities(&self) -> Result<(), ModelFileError> {
         for action in &self.actions {
-            let conditions = action.effects.iter().flat_map(|e| e.condition.iter().chain([&e.literal]));
-            for literal in action.preconditions.iter().chain(conditions) {
-                let expected = self.predicates.get(&literal.atom.predicate);
-                if expected != Some(&literal.atom.arity()) {
-                    let message = match expected {
-                        Some(n) => {
-                            format!("{} has {} arguments, its predicate takes {n}", literal.atom, literal.atom.arity())
-                        }
-                        None => format!("unknown predicate `{}`", literal.atom.predicate),
-                    };
-                    return Err(ModelFileError::Inconsistent { place: format!("action {}", action.name), message });
+            let place = || format!("action {}", action.name);
+            for literal in action.preconditions.iter().chain(action.effects.iter().flat_map(|e| &e.condition)) {
+                self.check_arity(&literal.atom, true, place)?;
+            }
+            for effect in &action.effects {
+                self.check_arity(&effect.literal.atom, false, place)?;
+            }
+        }
+        for axiom in &self.axioms {
+            let place = || format!("an axiom for {}", axiom.head.predicate);
+            for literal in &axiom.body {
+                self.check_arity(&literal.atom, true, place)?;
+            }
+            self.check_arity(&axiom.head, false, place)?;
+        }
+        Ok(())
+    }
+
+    fn check_arity(
+        &self,
+        atom: &LiftedAtom,
+        in_condition: bool,
+        place: impl Fn() -> String,
+    ) -> Result<(), ModelFileError> {
+        let equality = (in_condition && atom.is_equality()).then_some(2);
+        let expected = equality.or(self.predicates.get(&atom.predicate).copied());
+        if expected == Some(atom.arity()) {
+            return Ok(());
+        }
+        let message = match expected {
+            Some(n) => format!("{atom} has {} arguments, its predicate takes {n}", atom.arity()),
+            None => format!("unknown predicate `{}`", atom.predicate),
+        };
+        Err(ModelFileError::Inconsistent { place: place(), message })
+    }
+
+    /// Nothing that is derived is an effect, and the strata are an order of evaluation.
+    fn check_axioms(&self) -> Result<(), ModelFileError> {
+        let mut strata: BTreeMap<&Symbol, u32> = BTreeMap::new();
+        for axiom in &self.axioms {
+            let known = *strata.entry(&axiom.head.predicate).or_insert(axiom.stratum);
+            if known != axiom.stratum {
+                let place = format!("an axiom for {}", axiom.head.predicate);
+                return Err(inconsistent(place, "the axioms of one predicate belong to one stratum"));
+            }
+        }
+        for axiom in &self.axioms {
+            for literal in &axiom.body {
+                let Some(&stratum) = strata.get(&literal.atom.predicate) else { continue };
+                if stratum > axiom.stratum || stratum == axiom.stratum && !literal.positive {
+                    let place = format!("an axiom for {}", axiom.head.predicate);
+                    return Err(inconsistent(place, &format!("{literal} is evaluated too late")));
                 }
+            }
+        }
+        for action in &self.actions {
+            if let Some(effect) = action.effects.iter().find(|e| strata.contains_key(&e.literal.atom.predicate)) {
+                let place = format!("action {}", action.name);
+                return Err(inconsistent(place, &format!("its effect {} is of a derived predicate", effect.literal)));
             }
         }
         Ok(())
@@ -173,15 +230,10 @@ fn read_action(
     clusters: &[ClusterKey],
 ) -> Result<ActionSchema, ModelFileError> {
     let place = || format!("action {}", file.name);
-    at_most(file.parameters.len(), MOST_PARAMETERS, "parameters", place)?;
     at_most(file.preconditions.len(), MOST_PRECONDITIONS, "preconditions", place)?;
     let n = file.parameters.len() as u32;
     let ty = |name: &Symbol| type_id(hierarchy, name, place);
-    let parameters = file
-        .parameters
-        .iter()
-        .map(|(name, t)| Ok(Parameter { name: name.clone(), ty: ty(t)? }))
-        .collect::<Result<Vec<_>, ModelFileError>>()?;
+    let parameters = read_parameters(&file.parameters, hierarchy, place)?;
     let args = file
         .call
         .args
@@ -216,24 +268,16 @@ fn read_action(
     let mut effects: Vec<Effect> = file
         .effects
         .into_iter()
-        .map(|e| match e {
-            EffectFile::Always(literal) => Effect::always(read_literal(literal)),
-            EffectFile::When { when, then } => {
-                Effect { condition: when.into_iter().map(read_literal).collect(), literal: read_literal(then) }
-            }
-        })
-        .collect();
+        .map(|effect| read_effect(effect, n, hierarchy, place))
+        .collect::<Result<_, ModelFileError>>()?;
     effects.sort_unstable();
     let mut preconditions: Vec<Literal> = file.preconditions.into_iter().map(read_literal).collect();
     preconditions.sort_unstable();
     preconditions.dedup();
-    let literals = effects.iter().flat_map(|e| e.condition.iter().chain([&e.literal])).chain(&preconditions);
-    let params = literals.flat_map(|l| l.atom.params());
+    let params = preconditions.iter().map(|l| &l.atom).chain(&file.cost_functions).flat_map(LiftedAtom::params);
     let called = args.iter().filter_map(|t| if let Term::Param(i) = t { Some(*i) } else { None });
     let distinct = file.distinct.iter().flat_map(|&(a, b)| [a, b]);
-    if let Some(bad) = params.chain(called).chain(distinct).find(|&i| i >= n) {
-        return Err(inconsistent(place(), &format!("there is no parameter ?{bad}")));
-    }
+    check_params(params.chain(called).chain(distinct), n, place)?;
     if let Some((same, _)) = file.distinct.iter().find(|(a, b)| a == b) {
         return Err(inconsistent(place(), &format!("parameter ?{same} is to differ from itself")));
     }
@@ -244,9 +288,58 @@ fn read_action(
         preconditions,
         distinct: file.distinct,
         effects,
-        cost: file.cost,
+        cost: Cost { fixed: file.cost, functions: file.cost_functions },
         provenance,
     })
+}
+
+fn read_parameters(
+    pairs: &[(Symbol, Symbol)],
+    hierarchy: &Hierarchy,
+    place: impl Fn() -> String,
+) -> Result<Vec<Parameter>, ModelFileError> {
+    at_most(pairs.len(), MOST_PARAMETERS, "parameters", &place)?;
+    let read =
+        |(name, ty): &(Symbol, Symbol)| Ok(Parameter { name: name.clone(), ty: type_id(hierarchy, ty, &place)? });
+    pairs.iter().map(read).collect()
+}
+
+/// Reads an effect of an action with `n` parameters.
+fn read_effect(
+    file: EffectFile,
+    n: u32,
+    hierarchy: &Hierarchy,
+    place: impl Fn() -> String,
+) -> Result<Effect, ModelFileError> {
+    let effect = match file {
+        EffectFile::Always(literal) => Effect::always(read_literal(literal)),
+        EffectFile::When { forall, when, then } => Effect {
+            parameters: read_parameters(&forall, hierarchy, &place)?,
+            ..Effect::when(when.into_iter().map(read_literal).collect(), read_literal(then))
+        },
+    };
+    let n = n + effect.parameters.len() as u32;
+    let params = effect.condition.iter().chain([&effect.literal]).flat_map(|literal| literal.atom.params());
+    check_params(params, n, place)?;
+    Ok(effect)
+}
+
+fn read_axiom(file: AxiomFile, hierarchy: &Hierarchy) -> Result<Axiom, ModelFileError> {
+    let place = || format!("an axiom for {}", file.head.predicate);
+    let parameters = read_parameters(&file.parameters, hierarchy, place)?;
+    let body: Vec<Literal> = file.body.into_iter().map(read_literal).collect();
+    let params = body.iter().map(|l| &l.atom).chain([&file.head]).flat_map(LiftedAtom::params);
+    check_params(params, parameters.len() as u32, place)?;
+    Ok(Axiom { stratum: file.stratum, head: file.head, parameters, body })
+}
+
+/// Every parameter that is mentioned exists.
+fn check_params(
+    mut params: impl Iterator<Item = u32>,
+    n: u32,
+    place: impl Fn() -> String,
+) -> Result<(), ModelFileError> {
+    params.find(|&i| i >= n).map_or(Ok(()), |bad| Err(inconsistent(place(), &format!("there is no parameter ?{bad}"))))
 }
 
 fn read_term(text: &str) -> Result<Term, String> {

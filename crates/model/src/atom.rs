@@ -7,6 +7,9 @@ use thiserror::Error;
 
 use crate::Symbol;
 
+/// The predicate of equality: `=(a,b)` holds if a and b are the same object. It stands in conditions only.
+pub const EQUALS: &str = "=";
+
 /// A predicate applied to arguments. [`GroundAtom`] and [`LiftedAtom`] are the two kinds in use.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Atom<T> {
@@ -57,6 +60,8 @@ pub enum AtomTextError {
 pub fn check_name(name: &str) -> Result<(), AtomTextError> {
     let reason = if name.is_empty() {
         "it is empty"
+    } else if name == EQUALS {
+        "it means equality"
     } else if name.starts_with('?') {
         "it starts with `?`, which marks a parameter"
     } else if name.chars().any(|c| c.is_whitespace() || c.is_control()) {
@@ -80,6 +85,11 @@ impl<T> Atom<T> {
         self.args.len()
     }
 
+    /// Whether it says that two things are the same.
+    pub fn is_equality(&self) -> bool {
+        self.predicate == EQUALS
+    }
+
     /// The same predicate over other arguments.
     pub fn map<U>(&self, f: impl FnMut(&T) -> U) -> Atom<U> {
         Atom { predicate: self.predicate.clone(), args: self.args.iter().map(f).collect() }
@@ -96,7 +106,9 @@ fn split(text: &str) -> Result<(&str, Vec<&str>), AtomTextError> {
     };
     let inner = rest.strip_suffix(')').ok_or_else(form)?;
     let predicate = predicate.trim();
-    check_name(predicate).map_err(|_| form())?;
+    if predicate != EQUALS {
+        check_name(predicate).map_err(|_| form())?;
+    }
     let args = if inner.trim().is_empty() { Vec::new() } else { inner.split(',').map(str::trim).collect() };
     Ok((predicate, args))
 }
@@ -108,6 +120,7 @@ impl GroundAtom {
     /// [`AtomTextError`] if the text has another form.
     pub fn parse(text: &str) -> Result<Self, AtomTextError> {
         let (predicate, args) = split(text)?;
+        check_name(predicate).map_err(|_| AtomTextError::Form { text: text.to_owned() })?;
         for arg in &args {
             check_name(arg).map_err(|_| AtomTextError::Form { text: text.to_owned() })?;
         }

@@ -15,36 +15,39 @@ mod action_model;
 mod action_model_file;
 mod action_model_reader;
 mod atom;
+mod axiom;
 mod budget;
 mod evidence;
 mod hierarchy;
+mod instantiate;
 mod json_message;
 mod parse_config;
 mod pddl_names;
 mod plan;
+mod provenance;
 mod state;
 mod strict;
 mod symbol;
 mod task;
 mod unify;
 
-pub use action::{
-    ActionSchema, Effect, GroundAction, GroundCall, InstantiateError, LiftedCall, Literal, Parameter, Provenance,
-    Replacement, Source,
-};
+pub use action::{ActionSchema, Cost, Effect, GroundCall, LiftedCall, Literal, Parameter};
 pub use action_model::{ActionModel, ModelPddlNames, UniqueNames, describe_replacements, schema_name};
 pub use action_model_file::{MODEL_FORMAT, ModelFileError};
-pub use atom::{Atom, AtomTextError, GroundAtom, LiftedAtom, Term, check_name};
+pub use atom::{Atom, AtomTextError, EQUALS, GroundAtom, LiftedAtom, Term, check_name};
+pub use axiom::Axiom;
 pub use budget::{Budget, Stop};
 pub use evidence::{
     Cluster, ClusterKey, Evidence, MOST_PARAMETERS, NegativeKey, PRE_STATE_BOUND, PreStates, Unexplained,
     WITNESS_BOUND, Witness,
 };
 pub use hierarchy::{Hierarchy, HierarchyError, ROOT, TypeId};
+pub use instantiate::{GroundAction, InstantiateError};
 pub use json_message::json_message;
 pub use parse_config::ParseConfig;
 pub use pddl_names::{NameCollision, PddlNames};
 pub use plan::{Imagined, Plan, Step};
+pub use provenance::{Provenance, Replacement, Source};
 pub use state::State;
 pub use strict::strict;
 pub use symbol::{Symbol, SymbolPool};

@@ -22,9 +22,9 @@ pub struct State {
 }
 
 impl State {
-    /// Whether the atom is known to hold.
+    /// Whether the atom is known to hold. An equality holds of equal objects.
     pub fn holds(&self, atom: &GroundAtom) -> bool {
-        self.atoms.contains(atom)
+        if atom.is_equality() { atom.args.windows(2).all(|pair| pair[0] == pair[1]) } else { self.atoms.contains(atom) }
     }
 
     /// Whether every atom is known to hold.

@@ -13,7 +13,7 @@ pub fn strict(model: &ActionModel) -> ActionModel {
     let mut model = model.clone();
     for action in model.actions.iter_mut().filter(|a| a.provenance != Provenance::Given) {
         let mut preconditions = action.preconditions.clone();
-        for effect in action.effects.iter().filter(|e| e.literal.positive && e.condition.is_empty()) {
+        for effect in action.effects.iter().filter(|e| e.literal.positive && e.is_unconditional()) {
             let already_true = preconditions.iter().any(|l| l.positive && l.atom == effect.literal.atom);
             if !already_true {
                 preconditions.push(Literal::negative(effect.literal.atom.clone()));

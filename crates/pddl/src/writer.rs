@@ -8,8 +8,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
 use typelift_model::{
-    ActionModel, ActionSchema, Hierarchy, LiftedAtom, Literal, ModelPddlNames, NameCollision, PddlNames, Provenance,
-    Symbol, Term, TypeId, describe_replacements,
+    ActionModel, ActionSchema, Cost, Hierarchy, LiftedAtom, Literal, ModelPddlNames, NameCollision, PddlNames,
+    Provenance, Symbol, Term, TypeId, describe_replacements,
 };
 
 /// The model as a PDDL domain called `name`; equal models give equal bytes.
@@ -78,7 +78,7 @@ impl Writer<'_> {
     }
 
     fn has_costs(&self) -> bool {
-        self.model.actions.iter().any(|action| action.cost != 1)
+        self.model.actions.iter().any(|action| action.cost != Cost::UNIT)
     }
 
     /// The pairs of parameters that must differ and that the types do not keep apart.
@@ -185,7 +185,7 @@ impl Writer<'_> {
             });
         }
         if self.has_costs() {
-            effects.push(format!("(increase (total-cost) {})", action.cost));
+            effects.push(format!("(increase (total-cost) {})", action.cost.fixed));
         }
         line(out, format_args!("\n  ; {}", self.provenance(action)));
         line(out, format_args!("  (:action {}", pddl(&self.names.actions, &action.name)));
@@ -250,7 +250,7 @@ mod tests {
             preconditions: Vec::new(),
             distinct: ActionSchema::all_distinct(parameters.len()),
             effects: Vec::new(),
-            cost: 1,
+            cost: Cost::UNIT,
             provenance,
         };
         let replaced = vec![Replacement { parameter: 1, from: ty("cutboard"), to: ty("cuttingtool") }];
@@ -265,10 +265,10 @@ mod tests {
         imagined.effects = vec![Effect::always(Literal::positive(atom("status_Ready(?1)")))];
         let mut given = action("wait", &[("who", "agent")], Provenance::Given);
         given.effects = vec![
-            Effect {
-                condition: vec![Literal::positive(atom("tired(?0)")), Literal::positive(atom("at(?0,Home)"))],
-                literal: Literal::negative(atom("tired(?0)")),
-            },
+            Effect::when(
+                vec![Literal::positive(atom("tired(?0)")), Literal::positive(atom("at(?0,Home)"))],
+                Literal::negative(atom("tired(?0)")),
+            ),
             Effect::always(Literal::negative(atom("dark()"))),
         ];
         let predicates = [("near", 2), ("status_Ready", 1), ("tired", 1), ("dark", 0), ("at", 2), ("unused", 1)];
@@ -333,7 +333,7 @@ mod tests {
     #[test]
     fn costs_are_declared_when_they_differ() {
         let mut model = small_model();
-        model.actions[1].cost = 3;
+        model.actions[1].cost = 3.into();
         let text = write_domain(&model, "d").expect("no collision");
         for part in [":action-costs)", "(:functions (total-cost) - number)", "(increase (total-cost) 3)"] {
             assert!(text.contains(part), "{part}");

@@ -1,0 +1,76 @@
+//! Where an action comes from.
+
+use crate::{ClusterKey, GroundAtom, Symbol, TypeId};
+
+/// A cluster of observations, as seen from an action that rests on it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Source {
+    /// The cluster.
+    pub cluster: ClusterKey,
+    /// For each parameter of the cluster, the parameter of the action it corresponds to.
+    pub map: Vec<u32>,
+}
+
+/// A parameter whose type was raised.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Replacement {
+    /// The parameter's index.
+    pub parameter: u32,
+    /// The type it had.
+    pub from: TypeId,
+    /// The type it has.
+    pub to: TypeId,
+}
+
+/// Where an action comes from: the answer to "why?".
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Provenance {
+    /// Written by somebody, as in a PDDL domain.
+    Given,
+    /// Learned from one cluster of observations (an *individual* action).
+    Demonstrated(Source),
+    /// Generalized from several individual actions, sorted.
+    Generalized(Vec<Source>),
+    /// Imagined for an atom that could not be reached (Algorithm 2).
+    Imagined {
+        /// The learned action it raises.
+        from: Symbol,
+        /// The raised parameters.
+        replaced: Vec<Replacement>,
+        /// The unreachable atom it was imagined for.
+        goal: GroundAtom,
+        /// Observations behind the learned action.
+        observations: u64,
+    },
+    /// Made to follow an imagined action, taking over its replacements.
+    Substituted {
+        /// The learned action it raises.
+        from: Symbol,
+        /// The raised parameters.
+        replaced: Vec<Replacement>,
+        /// The imagined action it follows.
+        following: Symbol,
+        /// Observations behind the learned action.
+        observations: u64,
+    },
+}
+
+impl Provenance {
+    /// The learned action, raised parameters and observations of an imagined or substituted action.
+    pub fn imagined(&self) -> Option<(&Symbol, &[Replacement], u64)> {
+        match self {
+            Self::Imagined { from, replaced, observations, .. }
+            | Self::Substituted { from, replaced, observations, .. } => Some((from, replaced, *observations)),
+            Self::Given | Self::Demonstrated(_) | Self::Generalized(_) => None,
+        }
+    }
+
+    /// The clusters that a learned action rests on.
+    pub fn sources(&self) -> &[Source] {
+        match self {
+            Self::Demonstrated(source) => std::slice::from_ref(source),
+            Self::Generalized(sources) => sources,
+            Self::Given | Self::Imagined { .. } | Self::Substituted { .. } => &[],
+        }
+    }
+}
