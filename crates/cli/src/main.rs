@@ -13,6 +13,9 @@ mod kitchen;
 mod learn;
 mod limits;
 mod narrate;
+mod pddl;
+mod pddl_check;
+mod pddl_domains;
 mod plan;
 mod plan_text;
 mod run;
@@ -46,6 +49,7 @@ enum Command {
     Show(show::Show),
     Plan(plan::Plan),
     Run(run::Run),
+    Pddl(pddl::Pddl),
     Kitchen(kitchen::Kitchen),
 }
 
@@ -66,6 +70,7 @@ fn main() -> ExitCode {
         Command::Show(show) => show.run(),
         Command::Plan(plan) => plan.run(clock, quiet),
         Command::Run(run) => run.run(clock, quiet),
+        Command::Pddl(pddl) => pddl.run(quiet),
         Command::Kitchen(kitchen) => kitchen.run(quiet),
     };
     ended.unwrap_or_else(|failure: Failure| failure.report()).into()

@@ -14,20 +14,33 @@
 #![deny(missing_docs)]
 
 mod definition;
+mod domain_reader;
+mod effect_reader;
 mod error;
+mod formula_reader;
+mod names;
 mod objects;
 mod position;
+mod problem_reader;
+mod required;
+mod requirements;
+mod scope;
 mod sexpr;
 mod syntax;
+mod syntax_writer;
 mod trajectory;
 mod typed_list;
 mod types;
+mod vocabulary;
 mod writer;
 
 pub use definition::{Definition, DefinitionKind};
+pub use domain_reader::read_domain;
 pub use error::{PddlError, Related};
 pub use objects::{Declarations, ObjectDeclaration, read_objects};
 pub use position::{Position, Span};
+pub use problem_reader::read_problem;
+pub use required::{required_by_domain, required_by_problem, undeclared_requirements};
 pub use sexpr::{Children, Document, Sexpr};
 pub use syntax::{
     Action, Amount, Derived, Domain, Formula, MOST_NESTED, PddlAtom, PddlEffect, PddlTerm, Problem, Signature, Typed,
