@@ -13,6 +13,7 @@
 //! names of objects, predicates and actions come out in lower case.
 #![deny(missing_docs)]
 
+mod compile;
 mod definition;
 mod error;
 mod objects;
@@ -24,6 +25,7 @@ mod typed_list;
 mod types;
 mod writer;
 
+pub use compile::{CompileError, CompilePart, compile_domain, compile_problem};
 pub use definition::{Definition, DefinitionKind};
 pub use error::{PddlError, Related};
 pub use objects::{Declarations, ObjectDeclaration, read_objects};
