@@ -16,6 +16,8 @@
 mod compile;
 mod definition;
 mod error;
+#[cfg(test)]
+mod generate;
 mod objects;
 mod position;
 mod sexpr;

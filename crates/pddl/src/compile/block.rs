@@ -8,12 +8,10 @@ use typelift_model::{Atom, Hierarchy, LiftedAtom, Literal, Parameter, Symbol, Te
 
 use super::error::{CompileError, CompilePart};
 use super::invent::Inventions;
+use super::limits::Limits;
 use super::names::FreshNames;
 use super::normal::Normal;
 use crate::{Formula, PddlAtom, PddlTerm, Typed};
-
-/// In how many ways alternative types of the variables of one condition may be combined.
-const MOST_COMBINATIONS: usize = 1_000;
 
 /// What is known outside of the block.
 #[derive(Debug, Clone, Copy)]
@@ -24,6 +22,8 @@ pub(super) struct World<'w> {
     pub(super) objects: &'w BTreeMap<Symbol, TypeId>,
     /// The predicates with their numbers of arguments.
     pub(super) predicates: &'w BTreeMap<Symbol, usize>,
+    /// How large the model may become.
+    pub(super) limits: Limits,
 }
 
 /// A variable: a name that no other of its block has, and the types of which it may be, none below another.
@@ -108,11 +108,11 @@ impl<'w> Block<'w> {
     /// Every way to give each of these variables one of its types.
     pub(super) fn typings(&self, variables: &[u32]) -> Result<Vec<Vec<Parameter>>, CompileError> {
         let mut typings: Vec<Vec<Parameter>> = vec![Vec::with_capacity(variables.len())];
+        let most = self.world.limits.combinations;
         for &number in variables {
             let Variable { name, types } = &self.variables[number as usize];
-            if typings.len().saturating_mul(types.len()) > MOST_COMBINATIONS {
-                let message =
-                    format!("the types of its variables can be combined in more than {MOST_COMBINATIONS} ways");
+            if typings.len().saturating_mul(types.len()) > most {
+                let message = format!("the types of its variables can be combined in more than {most} ways");
                 return Err(self.error(message).not_supported());
             }
             let with = |typing: &Vec<Parameter>, ty: TypeId| {

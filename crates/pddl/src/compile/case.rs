@@ -13,9 +13,6 @@ use super::block::Block;
 use super::error::CompileError;
 use super::normal::Normal;
 
-/// How many cases a condition may have before its disjunctions become derived predicates.
-pub(super) const MOST_CASES: usize = 64;
-
 /// One way in which a condition can hold: there are objects for the variables of its own, such that these literals do.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(super) struct Case {
@@ -40,10 +37,14 @@ impl Case {
 }
 
 impl Block<'_> {
-    /// At most [`MOST_CASES`] cases of which one holds if and only if the condition does.
+    /// Not too many cases of which one holds if and only if the condition does.
     pub(super) fn few_cases(&mut self, condition: &Normal) -> Result<Vec<Case>, CompileError> {
         let cases = self.cases(condition)?;
-        if cases.len() > MOST_CASES { Ok(self.as_one("or", &cases)?.into_iter().collect()) } else { Ok(cases) }
+        if cases.len() > self.world.limits.cases {
+            Ok(self.as_one("or", &cases)?.into_iter().collect())
+        } else {
+            Ok(cases)
+        }
     }
 
     /// Cases of which one holds if and only if the condition does. Their number is linear in that of its literals.
@@ -81,7 +82,7 @@ impl Block<'_> {
         let mut product: Vec<Case> = vec![Case::default()];
         for part in parts {
             let mut cases = self.cases(part)?;
-            if cases.len() > 1 && product.len() * cases.len() > MOST_CASES {
+            if cases.len() > 1 && product.len() * cases.len() > self.world.limits.cases {
                 cases = self.as_one("or", &cases)?.into_iter().collect();
             }
             match cases.as_slice() {

@@ -14,9 +14,6 @@ use super::normal::Normal;
 use super::solve::{Solved, solve};
 use crate::{Amount, PddlAtom, PddlEffect};
 
-/// How many effects a schema may have.
-const MOST_EFFECTS: usize = 100_000;
-
 /// What an action changes, over the variables of its block.
 #[derive(Debug, Default)]
 pub(super) struct Changes {
@@ -132,6 +129,7 @@ pub(super) fn effects_of(
     declared: &[u32],
     schema: &Solved,
 ) -> Result<Vec<Effect>, CompileError> {
+    let most = block.world.limits.effects;
     let mut effects = Vec::with_capacity(changes.effects.len());
     for change in &changes.effects {
         for case in &change.cases {
@@ -143,8 +141,8 @@ pub(super) fn effects_of(
                 let rigid = schema.variables.len();
                 let variables = [schema.variables.as_slice(), &typing].concat();
                 effects.extend(effect(block, variables, rigid, &literals));
-                if effects.len() > MOST_EFFECTS {
-                    return Err(block.error(format!("it has more than {MOST_EFFECTS} effects")).not_supported());
+                if effects.len() > most {
+                    return Err(block.error(format!("it has more than {most} effects")).not_supported());
                 }
             }
         }

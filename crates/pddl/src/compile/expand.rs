@@ -9,12 +9,6 @@ use super::block::Block;
 use super::error::CompileError;
 use super::normal::Normal;
 
-/// The literals that a quantified condition may have when it is written out; a larger one stays quantified.
-const MOST_WRITTEN_OUT: u64 = 100_000;
-
-/// The literals that all of them may have together.
-const MOST_LITERALS: u64 = 1_000_000;
-
 /// What decides.
 pub(super) struct Expansion<'e, 'w> {
     block: &'e Block<'w>,
@@ -62,7 +56,7 @@ impl<'e, 'w> Expansion<'e, 'w> {
 
     fn quantified(&mut self, all: bool, variables: &[u32], body: &Normal) -> Result<Normal, CompileError> {
         let instances = self.instances(variables);
-        if instances.saturating_mul(self.size(body)) > MOST_WRITTEN_OUT {
+        if instances.saturating_mul(self.size(body)) > self.block.world.limits.written_out {
             let body = self.expand(body)?;
             return Ok(Normal::quantified(all, variables.to_vec(), body));
         }
@@ -98,8 +92,9 @@ impl<'e, 'w> Expansion<'e, 'w> {
 
     fn literal(&mut self, literal: &Literal) -> Result<Normal, CompileError> {
         self.literals += 1;
-        if self.literals > MOST_LITERALS {
-            let message = format!("it has more than {MOST_LITERALS} literals when quantifiers are written out");
+        let most = self.block.world.limits.goal;
+        if self.literals > most {
+            let message = format!("it has more than {most} literals when quantifiers are written out");
             return Err(self.block.error(message).not_supported());
         }
         let atom = literal.atom.map(|term| match term {

@@ -16,6 +16,7 @@ mod goal;
 mod invent;
 #[cfg(test)]
 mod law;
+mod limits;
 mod names;
 mod normal;
 mod schema;
@@ -32,6 +33,7 @@ pub use error::{CompileError, CompilePart};
 
 use self::block::World;
 use self::invent::Inventions;
+use self::limits::Limits;
 use self::names::FreshNames;
 use crate::{Amount, Domain, PddlEffect, Problem, Typed};
 
@@ -47,6 +49,10 @@ const TOTAL_COST: &str = "total-cost";
 /// [`CompileError`] if derived predicates depend on their own negation or are changed by actions, something is not
 /// declared, or the model would be too large.
 pub fn compile_domain(domain: &Domain) -> Result<ActionModel, CompileError> {
+    domain_within(domain, Limits::default())
+}
+
+fn domain_within(domain: &Domain, limits: Limits) -> Result<ActionModel, CompileError> {
     let edges = domain.types.iter().map(|(child, parent)| (child.as_str(), parent.as_str()));
     let hierarchy =
         Hierarchy::from_edges(edges).map_err(|error| CompileError::new(&CompilePart::Types, error.to_string()))?;
@@ -56,7 +62,7 @@ pub fn compile_domain(domain: &Domain) -> Result<ActionModel, CompileError> {
         domain.predicates.iter().map(|predicate| (predicate.name.clone(), predicate.parameters.len())).collect();
     derived::check_derived(domain)?;
 
-    let world = World { hierarchy: &hierarchy, objects: &constants, predicates: &predicates };
+    let world = World { hierarchy: &hierarchy, objects: &constants, predicates: &predicates, limits };
     let functions = domain.functions.iter().map(|function| function.name.clone());
     let mut inventions = Inventions::new(predicates.keys().cloned().chain(functions));
     for derived in &domain.derived {
@@ -87,6 +93,10 @@ pub fn compile_domain(domain: &Domain) -> Result<ActionModel, CompileError> {
 /// [`CompileError`] if the initial state states a derived predicate, something is not declared, or the goal is too
 /// large.
 pub fn compile_problem(problem: &Problem, model: &mut ActionModel) -> Result<Task, CompileError> {
+    problem_within(problem, model, Limits::default())
+}
+
+fn problem_within(problem: &Problem, model: &mut ActionModel, limits: Limits) -> Result<Task, CompileError> {
     let mut objects = model.constants.clone();
     add_objects(&mut objects, &problem.objects, &model.hierarchy, &CompilePart::Objects)?;
     let derived = model.derived_predicates();
@@ -98,7 +108,7 @@ pub fn compile_problem(problem: &Problem, model: &mut ActionModel) -> Result<Tas
 
     let functions = model.actions.iter().flat_map(|action| &action.cost.functions).map(|f| f.predicate.clone());
     let mut inventions = Inventions::new(model.predicates.keys().cloned().chain(functions));
-    let world = World { hierarchy: &model.hierarchy, objects: &objects, predicates: &model.predicates };
+    let world = World { hierarchy: &model.hierarchy, objects: &objects, predicates: &model.predicates, limits };
     let goal = goal::compile_goal(&problem.goal, world, &atoms, &goal::fluents(model), &mut inventions)?;
     inventions.finish(model);
     derived::stratify(model, |_| true)?;

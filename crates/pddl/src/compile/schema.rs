@@ -15,9 +15,6 @@ use super::names::FreshNames;
 use super::solve::{Solved, solve};
 use crate::Action;
 
-/// How many schemas may come from one action.
-const MOST_SCHEMAS: usize = 1_000;
-
 /// The action that is compiled.
 struct Compiled {
     name: Symbol,
@@ -41,6 +38,7 @@ pub(super) fn compile_action(
     let cases = block.few_cases(&condition)?;
     let changes = block.changes(&action.effect, derived, &mut visible)?;
     let compiled = Compiled { name: action.name.clone(), declared, changes };
+    let most = block.world.limits.schemas;
     let mut schemas: Vec<ActionSchema> = Vec::with_capacity(cases.len());
     for case in &cases {
         let variables = [compiled.declared.as_slice(), &case.exists].concat();
@@ -49,8 +47,8 @@ pub(super) fn compile_action(
             if schemas.iter().any(|other| is_same(other, &schema)) {
                 continue;
             }
-            if schemas.len() == MOST_SCHEMAS {
-                let message = format!("its precondition can hold in more than {MOST_SCHEMAS} ways");
+            if schemas.len() == most {
+                let message = format!("its precondition can hold in more than {most} ways");
                 return Err(block.error(message).not_supported());
             }
             schemas.push(schema);
