@@ -13,11 +13,14 @@
 //! names of objects, predicates and actions come out in lower case.
 #![deny(missing_docs)]
 
+mod compile;
 mod definition;
 mod domain_reader;
 mod effect_reader;
 mod error;
 mod formula_reader;
+#[cfg(test)]
+mod generate;
 mod names;
 mod objects;
 mod position;
@@ -34,6 +37,7 @@ mod types;
 mod vocabulary;
 mod writer;
 
+pub use compile::{CompileError, CompilePart, compile_domain, compile_problem};
 pub use definition::{Definition, DefinitionKind};
 pub use domain_reader::read_domain;
 pub use error::{PddlError, Related};

@@ -1,0 +1,81 @@
+//! Goals: literals, and a derived predicate for each part that is a disjunction.
+
+use std::collections::BTreeSet;
+
+use typelift_model::{ActionModel, Atom, GroundAtom, Literal, Symbol};
+
+use super::block::{Block, Visible, World};
+use super::case::Case;
+use super::error::{CompileError, CompilePart};
+use super::expand::{Expansion, ground};
+use super::invent::Inventions;
+use super::normal::Normal;
+use crate::Formula;
+
+/// What a goal became.
+#[derive(Debug, Default, PartialEq, Eq)]
+pub(super) struct Goal {
+    /// The atoms that must hold, in the order of the text.
+    pub(super) positive: Vec<GroundAtom>,
+    /// The atoms that may not.
+    pub(super) negative: Vec<GroundAtom>,
+}
+
+/// Compiles a goal for this initial state. One that can never hold becomes an atom that never does.
+pub(super) fn compile_goal(
+    goal: &Formula,
+    world: World<'_>,
+    init: &BTreeSet<GroundAtom>,
+    fluents: &BTreeSet<Symbol>,
+    inventions: &mut Inventions,
+) -> Result<Goal, CompileError> {
+    let mut block = Block::new(CompilePart::Goal, Symbol::new("goal"), world, inventions);
+    let normal = block.normal(goal, true, &mut Visible::new())?;
+    let expanded = Expansion::new(&block, init, fluents).expand(&normal)?;
+    let literals = match goal_literals(&mut block, expanded)? {
+        Some(literals) => literals,
+        None => vec![Literal::positive(Atom { predicate: inventions.predicate("goal-never", 0), args: Vec::new() })],
+    };
+    let mut compiled = Goal::default();
+    for literal in literals {
+        let Some(atom) = ground(&literal.atom) else { continue };
+        if literal.positive { compiled.positive.push(atom) } else { compiled.negative.push(atom) }
+    }
+    Ok(compiled)
+}
+
+/// The literals of a goal, each once; `None` if it can never hold.
+fn goal_literals(block: &mut Block<'_>, goal: Normal) -> Result<Option<Vec<Literal>>, CompileError> {
+    let parts = match goal {
+        Normal::And(parts) => parts,
+        part => vec![part],
+    };
+    let mut seen = BTreeSet::new();
+    let mut literals: Vec<Literal> = Vec::new();
+    for part in &parts {
+        let cases = block.cases(part)?;
+        let new = match cases.as_slice() {
+            [Case { exists, literals }] if exists.is_empty() => literals.clone(),
+            _ => match block.invent_as("goal", &cases)? {
+                Some(atom) => vec![Literal::positive(atom)],
+                None => return Ok(None),
+            },
+        };
+        for literal in new {
+            let opposite = Literal { atom: literal.atom.clone(), positive: !literal.positive };
+            if seen.contains(&opposite) {
+                return Ok(None);
+            }
+            if seen.insert(literal.clone()) {
+                literals.push(literal);
+            }
+        }
+    }
+    Ok(Some(literals))
+}
+
+/// The predicates of a model that change or are derived.
+pub(super) fn fluents(model: &ActionModel) -> BTreeSet<Symbol> {
+    let changed = model.actions.iter().flat_map(|action| &action.effects).map(|effect| &effect.literal.atom.predicate);
+    changed.chain(model.derived_predicates()).cloned().collect()
+}

@@ -1,0 +1,141 @@
+//! Derived predicates that stand for parts of conditions.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use typelift_model::{ActionModel, Atom, Axiom, LiftedAtom, Literal, MOST_PARAMETERS, Parameter, Symbol, Term, TypeId};
+
+use super::block::{Block, World};
+use super::case::Case;
+use super::error::CompileError;
+use super::names::FreshNames;
+use super::solve::solve;
+
+/// An axiom but for its predicate and stratum: the types of its parameters, the head's arguments, the body.
+type Rule = (Vec<TypeId>, Vec<Term>, Vec<Literal>);
+
+/// The derived predicates that were made, and all axioms.
+#[derive(Debug)]
+pub(super) struct Inventions {
+    names: FreshNames,
+    /// What was invented, with its number of arguments.
+    pub(super) predicates: BTreeMap<Symbol, usize>,
+    /// The axioms, of stated and of invented predicates; the strata are still to be found.
+    pub(super) axioms: Vec<Axiom>,
+    known: BTreeMap<Vec<Rule>, Symbol>,
+}
+
+impl Inventions {
+    /// None yet, for a model that uses these names for predicates and functions.
+    pub(super) fn new(used: impl IntoIterator<Item = Symbol>) -> Self {
+        Self { names: FreshNames::with(used), predicates: BTreeMap::new(), axioms: Vec::new(), known: BTreeMap::new() }
+    }
+
+    /// A new predicate without axioms.
+    pub(super) fn predicate(&mut self, base: &str, arity: usize) -> Symbol {
+        let name = self.names.numbered(base, 1);
+        self.predicates.insert(name.clone(), arity);
+        name
+    }
+
+    /// Writes what was invented into the model.
+    pub(super) fn finish(self, model: &mut ActionModel) {
+        model.predicates.extend(self.predicates);
+        model.axioms.extend(self.axioms);
+    }
+}
+
+impl Block<'_> {
+    /// An atom of a derived predicate that holds if and only if one of the cases does; `None` if none ever can.
+    /// Its arguments are the variables that the cases mention and do not own.
+    pub(super) fn invent(&mut self, kind: &str, cases: &[Case]) -> Result<Option<LiftedAtom>, CompileError> {
+        let name = format!("{kind}-{}", self.name);
+        self.invent_as(&name, cases)
+    }
+
+    /// As [`invent`](Self::invent), with this name before the number.
+    pub(super) fn invent_as(&mut self, name: &str, cases: &[Case]) -> Result<Option<LiftedAtom>, CompileError> {
+        let free = Self::free_variables(cases);
+        self.check_parameters(free.len())?;
+        let mut axioms = self.axioms(&Symbol::default(), &free, cases)?;
+        if axioms.is_empty() {
+            return Ok(None);
+        }
+        let mut rules: Vec<Rule> = axioms.iter().map(rule).collect();
+        rules.sort_unstable();
+        let predicate = match self.inventions.known.get(&rules) {
+            Some(known) => known.clone(),
+            None => {
+                let predicate = self.inventions.predicate(name, free.len());
+                for axiom in &mut axioms {
+                    axiom.head.predicate = predicate.clone();
+                }
+                self.inventions.axioms.extend(axioms);
+                self.inventions.known.insert(rules, predicate.clone());
+                predicate
+            }
+        };
+        Ok(Some(Atom { predicate, args: free.into_iter().map(Term::Param).collect() }))
+    }
+
+    /// The axioms by which an atom over the variables `head` follows from any of the cases, each once, in the cases'
+    /// order.
+    pub(super) fn axioms(
+        &mut self,
+        predicate: &Symbol,
+        head: &[u32],
+        cases: &[Case],
+    ) -> Result<Vec<Axiom>, CompileError> {
+        let mut axioms = Vec::with_capacity(cases.len());
+        let mut seen = BTreeSet::new();
+        for case in cases {
+            let variables = [head, &case.exists].concat();
+            for typing in self.typings(&variables)? {
+                let Some(axiom) = axiom(self.world, predicate, head.len(), &variables, typing, case) else { continue };
+                self.check_parameters(axiom.parameters.len())?;
+                if seen.insert(rule(&axiom)) {
+                    axioms.push(axiom);
+                }
+            }
+        }
+        Ok(axioms)
+    }
+
+    /// That there are not too many parameters for a model.
+    pub(super) fn check_parameters(&self, number: usize) -> Result<(), CompileError> {
+        if number <= MOST_PARAMETERS {
+            return Ok(());
+        }
+        Err(self
+            .error(format!("it needs {number} variables at once, at most {MOST_PARAMETERS} are supported"))
+            .not_supported())
+    }
+}
+
+/// The axiom of one case with these types of its variables, of which the first `arity` are the head's.
+fn axiom(
+    world: World<'_>,
+    predicate: &Symbol,
+    arity: usize,
+    variables: &[u32],
+    typing: Vec<Parameter>,
+    case: &Case,
+) -> Option<Axiom> {
+    let solved = solve(world, typing, 0, &renumbered(&case.literals, variables))?;
+    let head = Atom { predicate: predicate.clone(), args: solved.image[..arity].to_vec() };
+    Some(Axiom { stratum: 0, head, parameters: solved.variables, body: solved.literals })
+}
+
+/// The literals over positions in `variables`, which holds all that they mention.
+pub(super) fn renumbered(literals: &[Literal], variables: &[u32]) -> Vec<Literal> {
+    let position: BTreeMap<u32, u32> =
+        variables.iter().enumerate().map(|(at, variable)| (*variable, at as u32)).collect();
+    let term = |term: &Term| match term {
+        Term::Param(variable) => Term::Param(position.get(variable).copied().unwrap_or(*variable)),
+        object @ Term::Const(_) => object.clone(),
+    };
+    literals.iter().map(|literal| Literal { atom: literal.atom.map(term), positive: literal.positive }).collect()
+}
+
+fn rule(axiom: &Axiom) -> Rule {
+    (axiom.parameters.iter().map(|p| p.ty).collect(), axiom.head.args.clone(), axiom.body.clone())
+}
