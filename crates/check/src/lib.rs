@@ -106,7 +106,7 @@ pub fn check(model: &ActionModel, task: &Task, plan: &Plan) -> Result<State, Inv
             let (step, action) = (i + 1, action.schema.clone());
             return Err(Invalid::Precondition { step, action, atom: atom.clone(), positive: *positive });
         }
-        state = successor(model, &action, &state);
+        advance(model, &action, &mut state);
     }
     match task.goal_literals().find(|&(atom, positive)| state.holds(atom) != positive) {
         Some((atom, positive)) => Err(Invalid::Goal { atom: atom.clone(), positive }),
@@ -143,18 +143,19 @@ fn resolve(
     Ok(action)
 }
 
-/// The state after an action: deletes, then adds, then what follows.
-fn successor(model: &ActionModel, action: &GroundAction, state: &State) -> State {
-    let mut after = state.clone();
+/// Makes the state that after an action: deletes, then adds, then what follows.
+fn advance(model: &ActionModel, action: &GroundAction, state: &mut State) {
     for atom in &action.deletes {
-        after.atoms.remove(atom);
-        after.unknown.remove(atom);
+        state.atoms.remove(atom);
+        state.unknown.remove(atom);
     }
     for atom in &action.adds {
-        after.unknown.remove(atom);
-        after.atoms.insert(atom.clone());
+        state.unknown.remove(atom);
+        state.atoms.insert(atom.clone());
     }
-    if model.axioms.is_empty() { after } else { model.with_derived(&after) }
+    if !model.axioms.is_empty() {
+        *state = model.with_derived(state);
+    }
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use typelift_model::{
     Task, Term,
 };
 
-use crate::{Invalid, successor};
+use crate::{Invalid, advance};
 
 /// What a valid plan comes to.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -42,7 +42,7 @@ pub fn validate(model: &ActionModel, task: &Task, lines: &[GroundCall]) -> Resul
         });
         match taken {
             Ok((step, action)) => {
-                state = successor(model, &action, &state);
+                advance(model, &action, &mut state);
                 plan.steps.push(step);
             }
             Err(invalid) => return Err((plan, invalid)),

@@ -1,21 +1,30 @@
 //! Reading models and tasks, as every command that takes them does.
 
+use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use typelift::model::{ActionModel, ModelFileError, Task};
-use typelift::world::{FileError, Parser, read_task, read_text, read_types};
+use typelift::world::{DomainFile, FileError, Parser, TaskFile, is_pddl, read_task, read_text, read_types};
 
-use crate::exit::Exit;
 use crate::failure::{Failure, NOT_AS_WRITTEN};
 
-/// Reads a model file, and adds the types of another file to it.
-pub(crate) fn read_model(path: &Path, types: Option<&PathBuf>) -> Result<ActionModel, Failure> {
+/// A model as it is read: learned, or stated in PDDL.
+#[derive(Debug)]
+pub(crate) enum ModelInput {
+    Learned(ActionModel),
+    Given(Box<DomainFile>),
+}
+
+/// Reads a model file or a PDDL domain, and adds the types of another file to a model.
+pub(crate) fn read_model_input(path: &Path, types: Option<&PathBuf>) -> Result<ModelInput, Failure> {
     let text = read_text(path)?;
-    if text.trim_start().starts_with(['(', ';']) {
-        return Err(Failure::new(
-            Exit::Unsupported,
-            format!("{}: this is a PDDL file; typelift reads learned models (JSON) here so far", path.display()),
-        ));
+    if is_pddl(&text) {
+        if let Some(types) = types {
+            let message = format!("--types {}: a PDDL domain declares its own types", types.display());
+            return Err(Failure::bad_input(message));
+        }
+        return Ok(ModelInput::Given(Box::new(DomainFile::from_text(path, text)?)));
     }
     if text.trim().is_empty() {
         return Err(FileError::new(path, "the file is empty").into());
@@ -30,17 +39,77 @@ pub(crate) fn read_model(path: &Path, types: Option<&PathBuf>) -> Result<ActionM
     if let Some(types) = types {
         model.hierarchy = read_types(types)?.extend(&model.hierarchy)?;
     }
-    Ok(model)
+    Ok(ModelInput::Learned(model))
 }
 
-/// Reads a task file that says from which state to plan.
-pub(crate) fn read_planning_task(path: &Path, model: &ActionModel) -> Result<Task, Failure> {
-    let file = read_task(path)?;
-    let mut parser = Parser::new(model.hierarchy.clone(), model.parse.clone());
-    file.task(&mut parser, &model.predicates).map_err(|error| {
-        let error: FileError = error.in_file(path, &parser);
-        error.into()
+/// Reads a model file or a PDDL domain where only the model counts.
+pub(crate) fn read_model(path: &Path, types: Option<&PathBuf>) -> Result<ActionModel, Failure> {
+    Ok(match read_model_input(path, types)? {
+        ModelInput::Learned(model) => model,
+        ModelInput::Given(domain) => domain.model,
     })
+}
+
+/// What is to be done, as it is read: a task file, or a PDDL problem compiled with the model it needs.
+pub(crate) enum TaskInput {
+    File(TaskFile),
+    Problem(ActionModel, Task),
+}
+
+impl ModelInput {
+    /// The model alone.
+    pub(crate) fn model(&self) -> &ActionModel {
+        match self {
+            Self::Learned(model) => model,
+            Self::Given(domain) => &domain.model,
+        }
+    }
+
+    /// Whether it is a PDDL domain.
+    pub(crate) fn is_given(&self) -> bool {
+        matches!(self, Self::Given(_))
+    }
+
+    /// Reads a task file, or a problem of the domain.
+    pub(crate) fn read_task(&self, path: &Path) -> Result<TaskInput, Failure> {
+        let starts_as_pddl = is_pddl(&read_start(path)?);
+        match self {
+            Self::Given(domain) if starts_as_pddl => {
+                let (model, task) = domain.read_problem(path)?;
+                Ok(TaskInput::Problem(model, task))
+            }
+            Self::Learned(_) if starts_as_pddl => {
+                let error = FileError::new(path, "this is PDDL, and the model is a learned one");
+                let hint = "A PDDL problem needs its PDDL domain in the model's place; `typelift export` writes both.";
+                Err(error.with_hint(hint.to_owned()).into())
+            }
+            _ => Ok(TaskInput::File(read_task(path)?)),
+        }
+    }
+
+    /// Reads a task that says from which state to plan: the model for it, and the task.
+    pub(crate) fn read_planning_task(self, path: &Path) -> Result<(ActionModel, Task), Failure> {
+        match self.read_task(path)? {
+            TaskInput::Problem(model, task) => Ok((model, task)),
+            TaskInput::File(file) => {
+                let model = match self {
+                    Self::Learned(model) => model,
+                    Self::Given(domain) => domain.model,
+                };
+                let mut parser = Parser::new(model.hierarchy.clone(), model.parse.clone());
+                let task = file.task(&mut parser, &model.predicates).map_err(|error| error.in_file(path, &parser))?;
+                Ok((model, task))
+            }
+        }
+    }
+}
+
+/// The beginning of a file.
+fn read_start(path: &Path) -> Result<String, Failure> {
+    let mut start = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(256).read_to_end(&mut start));
+    read.map_err(|error| FileError::from_io(path, &error))?;
+    Ok(String::from_utf8_lossy(&start).trim_start_matches('\u{FEFF}').to_owned())
 }
 
 /// A task's name, for people: its file's, without folders and ending.

@@ -1,7 +1,7 @@
 //! `typelift plan`.
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use serde::Serialize;
@@ -13,27 +13,31 @@ use typelift::world::write_file;
 
 use crate::exit::Exit;
 use crate::failure::{Failure, cut_exit};
-use crate::files::{keep_inputs, read_model, read_planning_task};
+use crate::files::{keep_inputs, read_model_input};
 use crate::limits::{Clock, Interrupt, Limits};
 use crate::plan_text::{imagined_note, numbered_steps, plan_file, plan_size};
 use crate::style::{BAD, HEAD, HINT, count};
 
+/// Where the plan for a PDDL problem is written unless the user says otherwise, as Fast Downward does.
+const DEFAULT_OUTPUT: &str = "sas_plan";
+
 /// Nodes that are expanded to find out whether a hint holds.
 const HINT_EXPANSIONS: u64 = 20_000;
 
-/// Plan a task with a learned model
+/// Plan a task with a learned model, or a PDDL problem
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   typelift plan kitchen.json K/tasks/T2.1.json
   typelift plan kitchen.json K/tasks/T4.1.json --imagine -o apple.plan
   typelift plan kitchen.json K/tasks/T1.4.json --plans 3
+  typelift plan domain.pddl problem.pddl --better --time-limit 30s
 
 Exit codes: 0 a plan was found, 11 there is none in this model, 12 gave up at a
 limit, 22 out of memory, 23 out of time, 31 bad input, 36 wrong usage.")]
 pub(crate) struct Plan {
-    /// The model, as `learn` wrote it
+    /// The model, as `learn` wrote it, or a PDDL domain
     model: PathBuf,
-    /// The task: a goal and a state to start from
+    /// The task: a goal and a state to start from; or a problem of the PDDL domain
     task: PathBuf,
     /// Add the types of this file to the model's
     #[arg(long, value_name = "FILE")]
@@ -51,7 +55,7 @@ pub(crate) struct Plan {
     /// Use an action also where some of its effects hold already
     #[arg(long)]
     plain: bool,
-    /// Write the plan to this file; several to FILE.1, FILE.2, …
+    /// Write the plan to this file; several to FILE.1, FILE.2, … [default: none, and sas_plan for a PDDL problem]
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Print one JSON object instead
@@ -96,8 +100,10 @@ impl Plan {
         let interrupt = Interrupt::install()?;
         let budget = self.limits.budget(clock, &interrupt);
         keep_inputs(self.output.as_deref(), [&self.model, &self.task].into_iter().chain(&self.types))?;
-        let model = read_model(&self.model, self.types.as_ref())?;
-        let task = read_planning_task(&self.task, &model)?;
+        let input = read_model_input(&self.model, self.types.as_ref())?;
+        let default_output = input.is_given().then(|| PathBuf::from(DEFAULT_OUTPUT));
+        let output = self.output.clone().or(default_output);
+        let (model, task) = input.read_planning_task(&self.task)?;
         let begun = clock.elapsed();
         let options = self.options(self.imagine);
         let mut proposal = match propose(&model, &task, &Restrictions::default(), &options, &budget) {
@@ -113,13 +119,13 @@ impl Plan {
             plans.push(plan.clone());
             if self.better {
                 // What is found is safe, however the search ends.
-                self.write_plans(&plans, &proposal.model, &task)?;
+                self.write_plans(output.as_deref(), &plans, &proposal.model, &task)?;
             }
             if !self.json {
                 let took = clock.elapsed() - begun;
                 if let Err(failure) = self.print(&mut out, number, &plan, &proposal, &model, took) {
                     // Nobody reads on; the file is wanted all the same.
-                    self.write_plans(&plans, &proposal.model, &task)?;
+                    self.write_plans(output.as_deref(), &plans, &proposal.model, &task)?;
                     return Err(failure);
                 }
             }
@@ -132,7 +138,7 @@ impl Plan {
                 proposal.next_plan(&budget)?
             };
         };
-        self.write_plans(&plans, &proposal.model, &task)?;
+        self.write_plans(output.as_deref(), &plans, &proposal.model, &task)?;
         let exit = if plans.is_empty() { exit_of(&last) } else { Exit::Success };
         // Of a search that was ended early nothing can be said.
         let searched = matches!(last, Outcome::Unsolvable | Outcome::NoMorePlans);
@@ -194,15 +200,30 @@ impl Plan {
         Ok(())
     }
 
-    fn write_plans(&self, plans: &[FoundPlan], model: &ActionModel, task: &Task) -> Result<(), Failure> {
-        let Some(path) = &self.output else { return Ok(()) };
-        let kept = if self.better { &plans[plans.len().saturating_sub(1)..] } else { plans };
-        for (i, plan) in kept.iter().enumerate() {
-            let mut name = path.clone().into_os_string();
-            if kept.len() > 1 {
+    /// One plan is written to the file itself; several to the file with a number each, the best of `--better` to the file
+    /// itself as well.
+    fn write_plans(
+        &self,
+        output: Option<&Path>,
+        plans: &[FoundPlan],
+        model: &ActionModel,
+        task: &Task,
+    ) -> Result<(), Failure> {
+        let (Some(path), Some(last)) = (output, plans.last()) else { return Ok(()) };
+        let write = |path: &Path, plan: &FoundPlan| -> Result<(), Failure> {
+            Ok(write_file(path, plan_file(plan, model, &task.init)?.as_bytes())?)
+        };
+        if self.better || plans.len() == 1 {
+            write(path, last)?;
+        }
+        if self.better || plans.len() > 1 {
+            // With --better all but the last are there already.
+            let new = if self.better { plans.len() - 1 } else { 0 };
+            for (i, plan) in plans.iter().enumerate().skip(new) {
+                let mut name = path.as_os_str().to_owned();
                 name.push(format!(".{}", i + 1));
+                write(name.as_ref(), plan)?;
             }
-            write_file(name.as_ref(), plan_file(plan, model, &task.init)?.as_bytes())?;
         }
         Ok(())
     }

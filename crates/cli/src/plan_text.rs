@@ -40,10 +40,10 @@ pub(crate) fn plan_file(plan: &Plan, model: &ActionModel, state: &State) -> Resu
     let objects = PddlNames::fold("object", state.objects.keys())?;
     let mut text = String::new();
     for step in &plan.steps {
-        let action = names.actions.pddl(step.action.as_str()).unwrap_or(&step.action);
-        let _ = write!(text, "({action}");
-        for object in &step.objects {
-            let _ = write!(text, " {}", objects.pddl(object.as_str()).unwrap_or(object));
+        let Some(schema) = model.action(step.action.as_str()) else { continue };
+        let _ = write!(text, "({}", names.in_plans(schema));
+        for object in schema.signature().args.iter().map(|term| term.object(&step.objects)) {
+            let _ = write!(text, " {}", objects.pddl(object.as_str()).unwrap_or(&object));
         }
         let _ = write!(text, ")");
         if let Some(note) = imagined_note(step, &model.hierarchy) {

@@ -2,7 +2,7 @@
 
 use std::fs::File;
 use std::io::{BufRead, BufWriter, IsTerminal, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -10,14 +10,14 @@ use clap::ValueEnum;
 use typelift::agent::{Confirmation, Ending, Episode, Experience, Options, run};
 use typelift::bridge::Bridge;
 use typelift::imagine;
-use typelift::model::{ActionModel, Plan};
-use typelift::world::{FileError, Parser, Reset, Scene, TaskFile, World, WorldError, read_task};
+use typelift::model::{ActionModel, Plan, Task};
+use typelift::world::{FileError, Parser, Reset, Scene, TaskFile, World, WorldError};
 use typelift_kitchen::Kitchen;
 
 use crate::account::{report, summary};
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::files::{keep_inputs, read_model, task_name};
+use crate::files::{TaskInput, keep_inputs, read_model_input, task_name};
 use crate::goal_check::GoalCheck;
 use crate::limits::{Clock, Interrupt, Limits, parse_duration, parse_whole};
 use crate::narrate::Narrator;
@@ -119,10 +119,14 @@ impl Run {
     pub(crate) fn run(&self, clock: Clock, quiet: bool) -> Result<Exit, Failure> {
         let interrupt = Interrupt::install()?;
         keep_inputs(self.events.as_deref(), self.tasks.iter().chain([&self.model]).chain(&self.types))?;
-        let model = Arc::new(read_model(&self.model, self.types.as_ref())?);
+        let input = read_model_input(&self.model, self.types.as_ref())?;
+        let learned = Arc::new(input.model().clone());
         let mut tasks = Vec::with_capacity(self.tasks.len());
         for path in &self.tasks {
-            tasks.push((path, read_task(path)?));
+            tasks.push(match input.read_task(path)? {
+                TaskInput::File(file) => (path, Arc::clone(&learned), self.reset(&file), Task::from(file.goal)),
+                TaskInput::Problem(model, task) => (path, Arc::new(model), self.reset_to_problem(path), task),
+            });
         }
         let mut world = self.open(&interrupt)?;
         if self.restart && !world.can_reset() {
@@ -138,7 +142,7 @@ impl Run {
         let mut experience = Experience::new();
         let mut out = anstream::stdout().lock();
         let mut all_solved = true;
-        for (path, task) in tasks {
+        for (path, model, reset, task) in tasks {
             let name = task_name(path);
             if narrator.aloud {
                 anstream::eprintln!("{HEAD}{name}{HEAD:#}");
@@ -146,11 +150,12 @@ impl Run {
             narrator.planning = Duration::ZERO;
             let budget = self.limits.with_default_expansions(EXPANSIONS).budget(clock, &interrupt);
             let mut episode =
-                Episode::new(Arc::clone(&model), task.goal.clone(), self.options(), experience.clone(), budget);
+                Episode::new(Arc::clone(&model), task.clone(), self.options(), experience.clone(), budget);
             let mut parser = Parser::new(model.hierarchy.clone(), model.parse.clone());
-            let mut checked = GoalCheck { world: &mut *world, model: &model, task: &task, error: None };
+            let goal = task.goal_literals().map(|(atom, _)| atom.clone()).collect();
+            let mut checked = GoalCheck { world: &mut *world, model: &model, goal, error: None };
             let mut confirm = |plan: &Plan| self.confirm(plan, &model, &interrupt);
-            let ran = run(&mut episode, &mut checked, &self.reset(&task), &mut parser, &mut confirm, &mut narrator);
+            let ran = run(&mut episode, &mut checked, &reset, &mut parser, &mut confirm, &mut narrator);
             if let Some(error) = checked.error {
                 return Err(error.in_file(path, &parser).into());
             }
@@ -216,6 +221,12 @@ impl Run {
             _ => None,
         };
         Reset { seed: self.seed.or(task.seed).unwrap_or(0), scenario: task.scenario.clone().or_else(from_state) }
+    }
+
+    /// How the environment is set up for a PDDL problem: it is told the file.
+    fn reset_to_problem(&self, path: &Path) -> Reset {
+        let scenario = serde_json::json!({ "problem": path.display().to_string() });
+        Reset { seed: self.seed.unwrap_or(0), scenario: Some(scenario) }
     }
 
     /// Asks whoever is at the terminal.

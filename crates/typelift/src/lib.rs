@@ -47,7 +47,7 @@
 //!
 //! // Asked: a beam, which nobody ever cut.
 //! let scene: Scene = serde_json::from_str(r#"{"objects": {"saw_1": "saw", "b": "beam"}, "atoms": ["whole(b)"]}"#)?;
-//! let task = Task { init: parser.parse(&scene)?, goal: vec![GroundAtom::parse("cut(b)")?] };
+//! let task = Task::new(parser.parse(&scene)?, vec![GroundAtom::parse("cut(b)")?]);
 //! let (nothing_failed, no_limits) = (Restrictions::default(), Budget::unlimited());
 //! let proposal = propose(&learned.model, &task, &nothing_failed, &Options::default(), &no_limits)?;
 //! let Outcome::Solved(plan) = proposal.outcome else { panic!("{}", proposal.explain()) };

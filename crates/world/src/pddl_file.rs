@@ -1,0 +1,55 @@
+//! Domains and problems from files, compiled into a model and a task.
+
+use std::path::{Path, PathBuf};
+
+use typelift_model::{ActionModel, Task};
+use typelift_pddl::{CompileError, Domain, compile_domain, compile_problem, read_domain, read_problem};
+
+use crate::{FileError, read_text};
+
+/// A domain that was read, with the model that it states.
+#[derive(Debug, Clone)]
+pub struct DomainFile {
+    /// The domain as it is written.
+    pub domain: Domain,
+    /// Its model.
+    pub model: ActionModel,
+    path: PathBuf,
+    text: String,
+}
+
+/// Whether a text is PDDL rather than JSON.
+pub fn is_pddl(text: &str) -> bool {
+    text.trim_start().starts_with(['(', ';'])
+}
+
+impl DomainFile {
+    /// Reads a domain from the text of a file.
+    ///
+    /// # Errors
+    /// [`FileError`] if it is not one, or has no model.
+    pub fn from_text(path: &Path, text: String) -> Result<Self, FileError> {
+        let domain = read_domain(&text).map_err(|error| FileError::from_pddl(path, &text, error))?;
+        let model = compile_domain(&domain).map_err(|error| located(path, &text, &error))?;
+        Ok(Self { domain, model, path: path.to_owned(), text })
+    }
+
+    /// Reads a problem of this domain: the model for it, and its task.
+    ///
+    /// # Errors
+    /// [`FileError`] if it is not one, or has no task.
+    pub fn read_problem(&self, path: &Path) -> Result<(ActionModel, Task), FileError> {
+        let text = read_text(path)?;
+        let problem = read_problem(&text, &self.domain).map_err(|error| FileError::from_pddl(path, &text, error))?;
+        let mut model = self.model.clone();
+        let task = compile_problem(&problem, &mut model).map_err(|error| match error.part.is_of_problem() {
+            true => located(path, &text, &error),
+            false => located(&self.path, &self.text, &error),
+        })?;
+        Ok((model, task))
+    }
+}
+
+fn located(path: &Path, text: &str, error: &CompileError) -> FileError {
+    FileError::from_pddl(path, text, error.locate(text))
+}
