@@ -18,11 +18,17 @@ mod definition;
 mod domain_reader;
 mod effect_reader;
 mod error;
+mod format;
 mod formula_reader;
+<<<<<<< HEAD
 #[cfg(test)]
 mod generate;
+=======
+mod layout_tokens;
+>>>>>>> a
 mod names;
 mod objects;
+mod plan_file;
 mod position;
 mod problem_reader;
 mod required;
@@ -41,7 +47,9 @@ pub use compile::{CompileError, CompilePart, compile_domain, compile_problem};
 pub use definition::{Definition, DefinitionKind};
 pub use domain_reader::read_domain;
 pub use error::{PddlError, Related};
+pub use format::format;
 pub use objects::{Declarations, ObjectDeclaration, read_objects};
+pub use plan_file::{PlanLine, read_plan};
 pub use position::{Position, Span};
 pub use problem_reader::read_problem;
 pub use required::{required_by_domain, required_by_problem, undeclared_requirements};

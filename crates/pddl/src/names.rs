@@ -49,7 +49,10 @@ pub(crate) fn new_variable(text: &str, name: &str, span: Span) -> Result<Symbol,
         Some(name) => new_name(text, name, span),
         None => {
             let error = PddlError::new(text, span, format!("a variable is expected here, not `{name}`"));
-            Err(error.with_hint(format!("Write `?{name}`.")))
+            Err(error.with_hint(match name.strip_prefix('-') {
+                Some(ty) => format!("Write a space after `-`: `- {ty}`."),
+                None => format!("Write `?{name}`."),
+            }))
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What a name means where it stands: variables that are bound there, objects, and atoms over both.
 
-use typelift_model::{Atom, GroundAtom, Symbol, TypeId, did_you_mean};
+use typelift_model::{Atom, GroundAtom, Hierarchy, Symbol, TypeId, did_you_mean};
 
 use crate::names::{lower, new_variable};
 use crate::vocabulary::{Declared, Signatures, Vocabulary};
@@ -18,6 +18,19 @@ pub(crate) struct Scope<'v> {
 struct Variable {
     name: Symbol,
     types: Vec<TypeId>,
+}
+
+/// The types of a variable; or that of an object, and nothing below it.
+#[derive(Debug, Clone, Copy)]
+struct Types<'a>(&'a [TypeId], bool);
+
+impl Types<'_> {
+    /// Whether it is of one of the types `wanted`; of a variable, whether what it stands for can be.
+    fn fit(self, wanted: &[TypeId], hierarchy: &Hierarchy) -> bool {
+        let Self(given, exact) = self;
+        let fits = |g, w| hierarchy.is_a(g, w) || !exact && hierarchy.is_a(w, g);
+        given.iter().any(|&g| wanted.iter().any(|&w| fits(g, w)))
+    }
 }
 
 impl<'v> Scope<'v> {
@@ -78,7 +91,7 @@ impl<'v> Scope<'v> {
         &'s self,
         item: Sexpr<'_>,
         known: &Signatures,
-        read: impl Fn(&'s Self, Sexpr<'_>) -> Result<(T, &'s [TypeId]), PddlError>,
+        read: impl Fn(&'s Self, Sexpr<'_>) -> Result<(T, Types<'s>), PddlError>,
     ) -> Result<Atom<T>, PddlError> {
         let mut parts = item.children();
         let Some(name) = parts.next().filter(|name| !name.is_list()) else {
@@ -89,8 +102,8 @@ impl<'v> Scope<'v> {
         for part in parts {
             let (arg, types) = read(self, part)?;
             match declared.types.get(args.len()) {
-                Some(wanted) if !self.vocabulary.fits(types, wanted) => {
-                    return Err(self.misfit(known.kind, part, types, declared, wanted));
+                Some(wanted) if !types.fit(wanted, &self.vocabulary.hierarchy) => {
+                    return Err(self.misfit(known.kind, part, types.0, declared, wanted));
                 }
                 _ => args.push(arg),
             }
@@ -132,18 +145,18 @@ impl<'v> Scope<'v> {
         let [given, wanted] = [types, wanted].map(|types| self.vocabulary.show_types(types));
         let name = &declared.signature.name;
         let message = format!("`{}` is of type `{given}`, {kind} `{name}` takes `{wanted}` here", lower(part.text()));
-        let note = format!("No `{given}` is a `{wanted}`. ");
+        let note = format!("Not every `{given}` is a `{wanted}`. ");
         with_declaration(part.document_text(), part.error(message), declared, &note)
     }
 
-    fn term(&self, part: Sexpr<'_>) -> Result<(PddlTerm, &[TypeId]), PddlError> {
+    fn term(&self, part: Sexpr<'_>) -> Result<(PddlTerm, Types<'_>), PddlError> {
         let Some(name) = part.text().strip_prefix('?').filter(|_| !part.is_list()) else {
             let (object, types) = self.object(part)?;
             return Ok((PddlTerm::Object(object), types));
         };
         let name = lower(name);
         match self.variables.iter().rev().find(|variable| variable.name == *name) {
-            Some(variable) => Ok((PddlTerm::Variable(variable.name.clone()), &variable.types)),
+            Some(variable) => Ok((PddlTerm::Variable(variable.name.clone()), Types(&variable.types, false))),
             None => {
                 let near = did_you_mean(&name, self.variables.iter().map(|variable| &variable.name));
                 let hint = near.map(|near| near.replacen('`', "`?", 1));
@@ -160,13 +173,13 @@ impl<'v> Scope<'v> {
         self.term(part).map(|(term, _)| term)
     }
 
-    fn object(&self, part: Sexpr<'_>) -> Result<(Symbol, &[TypeId]), PddlError> {
+    fn object(&self, part: Sexpr<'_>) -> Result<(Symbol, Types<'_>), PddlError> {
         let Some(name) = part.atom() else {
             return Err(part.error("a name is expected here, not a list"));
         };
         let name = lower(name);
         match self.vocabulary.objects.get_key_value(&*name) {
-            Some((name, object)) => Ok((name.clone(), &object.types)),
+            Some((name, object)) => Ok((name.clone(), Types(&object.types, true))),
             None if name.starts_with('?') => {
                 Err(part.error(format!("variable `{name}` stands where only objects may")))
             }

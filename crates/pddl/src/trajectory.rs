@@ -148,7 +148,8 @@ impl Trajectory {
     }
 }
 
-fn read_atom(item: Sexpr<'_>, names: &mut SymbolPool) -> Result<GroundAtom, PddlError> {
+/// An atom over objects, or an action, `(name object …)`, in lower case.
+pub(crate) fn read_atom(item: Sexpr<'_>, names: &mut SymbolPool) -> Result<GroundAtom, PddlError> {
     if !item.is_list() || item.head().is_none() {
         return Err(item.error("an atom `(name object …)` is expected here"));
     }

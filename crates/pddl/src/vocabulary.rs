@@ -209,11 +209,6 @@ impl Vocabulary {
         type_ids(&self.hierarchy, typed)
     }
 
-    /// Whether something of one of the types `given` may be of one of `wanted`.
-    pub(crate) fn fits(&self, given: &[TypeId], wanted: &[TypeId]) -> bool {
-        given.iter().any(|&g| wanted.iter().any(|&w| self.hierarchy.is_a(g, w) || self.hierarchy.is_a(w, g)))
-    }
-
     /// `block`, or `(either block table)`.
     pub(crate) fn show_types(&self, types: &[TypeId]) -> String {
         let names: Vec<&str> = types.iter().map(|&id| self.hierarchy.name(id).as_str()).collect();
