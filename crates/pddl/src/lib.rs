@@ -15,6 +15,7 @@
 
 mod definition;
 mod error;
+mod export;
 mod objects;
 mod position;
 mod sexpr;
@@ -26,6 +27,7 @@ mod writer;
 
 pub use definition::{Definition, DefinitionKind};
 pub use error::{PddlError, Related};
+pub use export::{ExportError, ExportNames, ExportOptions, Exported, Level, MOST_FACTS, UnknownName, export};
 pub use objects::{Declarations, ObjectDeclaration, read_objects};
 pub use position::{Position, Span};
 pub use sexpr::{Children, Document, Sexpr};
