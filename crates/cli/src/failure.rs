@@ -4,9 +4,9 @@ use std::fmt::Display;
 use std::io;
 
 use typelift::agent::{ProposeError, RunError};
-use typelift::model::{ModelFileError, NameCollision, Stop, Symbol};
+use typelift::model::{ModelFileError, NameCollision, Stop, Symbol, nearest};
 use typelift::plan::Cut;
-use typelift::world::{FileError, WorldError, nearest};
+use typelift::world::{FileError, WorldError};
 
 use crate::exit::Exit;
 use crate::style::{ERROR, HINT};

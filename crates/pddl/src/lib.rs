@@ -14,22 +14,32 @@
 #![deny(missing_docs)]
 
 mod definition;
+mod domain_reader;
+mod effect_reader;
 mod error;
 mod export;
+mod formula_reader;
+mod names;
 mod objects;
 mod position;
+mod problem_reader;
+mod requirements;
+mod scope;
 mod sexpr;
 mod syntax;
+mod syntax_writer;
 mod trajectory;
 mod typed_list;
 mod types;
-mod writer;
+mod vocabulary;
 
 pub use definition::{Definition, DefinitionKind};
+pub use domain_reader::read_domain;
 pub use error::{PddlError, Related};
 pub use export::{ExportError, ExportNames, ExportOptions, Exported, Level, MOST_FACTS, UnknownName, export};
 pub use objects::{Declarations, ObjectDeclaration, read_objects};
 pub use position::{Position, Span};
+pub use problem_reader::read_problem;
 pub use sexpr::{Children, Document, Sexpr};
 pub use syntax::{
     Action, Amount, Derived, Domain, Formula, MOST_NESTED, PddlAtom, PddlEffect, PddlTerm, Problem, Signature, Typed,
@@ -37,4 +47,3 @@ pub use syntax::{
 pub use trajectory::{Trajectory, TrajectoryAction, TrajectoryState, read_trajectory};
 pub use typed_list::{TypedName, read_typed_list};
 pub use types::{TypeEdge, hierarchy_from_types, locate_hierarchy_error, read_hierarchy, read_types};
-pub use writer::write_domain;

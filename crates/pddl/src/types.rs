@@ -36,7 +36,11 @@ pub fn read_types(text: &str) -> Result<Vec<TypeEdge>, PddlError> {
             None => return Err(root.error("neither a `(:types …)` block nor a domain")),
         }
     };
-    let Some(block) = block else { return Ok(Vec::new()) };
+    block.map_or(Ok(Vec::new()), types_of_block)
+}
+
+/// The types that a `(:types …)` block declares, as [`read_types`] reads them.
+pub(crate) fn types_of_block(block: Sexpr<'_>) -> Result<Vec<TypeEdge>, PddlError> {
     let mut items = block.children();
     items.next();
     let declared = read_typed_list(items)?;

@@ -4,10 +4,9 @@ use std::io;
 use std::path::Path;
 
 use thiserror::Error;
-use typelift_model::Hierarchy;
+use typelift_model::{Hierarchy, did_you_mean};
 use typelift_pddl::PddlError;
 
-use crate::similar::did_you_mean;
 use crate::{ParseError, ParseErrorKind, json};
 
 /// Why a file could not be read or written. Shown as `demos/a.jsonl:14: …`.

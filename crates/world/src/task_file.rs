@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
-use typelift_model::{GroundAtom, State, Symbol, Task};
+use typelift_model::{GroundAtom, State, Symbol, Task, nearest};
 
 use crate::trace_line::SceneLine;
 use crate::{FileError, ParseError, Parser, Scene, json, read_text, write_file};
@@ -103,12 +103,12 @@ pub fn check_goal(goal: &[GroundAtom], state: &State, predicates: &BTreeMap<Symb
             }
             Some(_) => {}
             None => {
-                let near = crate::nearest(atom.predicate.as_str(), predicates.keys()).cloned();
+                let near = nearest(atom.predicate.as_str(), predicates.keys()).cloned();
                 return Err(TaskError::UnknownPredicate { atom: atom.clone(), near });
             }
         }
         if let Some(object) = atom.args.iter().find(|arg| !state.objects.contains_key(*arg)) {
-            let near = crate::nearest(object.as_str(), state.objects.keys()).cloned();
+            let near = nearest(object.as_str(), state.objects.keys()).cloned();
             return Err(TaskError::UnknownObject { atom: atom.clone(), object: object.clone(), near });
         }
     }

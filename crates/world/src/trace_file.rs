@@ -5,10 +5,9 @@ use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 
-use typelift_model::{GroundAtom, HashMap, State, Symbol, SymbolPool, TypeId, check_name};
+use typelift_model::{GroundAtom, HashMap, State, Symbol, SymbolPool, TypeId, check_name, did_you_mean};
 
 use crate::line_reader::{LINE_LIMIT, Line, LineReader};
-use crate::similar::did_you_mean;
 use crate::trace_line::{BodyLine, HeaderLine, TRACE_FORMAT};
 use crate::{FileError, Parser, Scene, Trace, TraceAction, json};
 

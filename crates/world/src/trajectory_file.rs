@@ -3,10 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use typelift_model::{GroundAtom, Hierarchy, Symbol};
+use typelift_model::{GroundAtom, Hierarchy, Symbol, did_you_mean};
 use typelift_pddl::{PddlError, Span, Trajectory};
 
-use crate::similar::did_you_mean;
 use crate::trace_file::file_name;
 use crate::{FileError, ObjectTypes, ParseError, ParseErrorKind, Parser, Scene, Trace, TraceAction, read_text};
 

@@ -16,14 +16,14 @@ impl Writer<'_> {
         let mut lines = vec![format!("written by typelift, level {level}")];
         lines.extend(notes);
         lines.extend(respelled(&[&names.domain, &names.types, &names.predicates, &names.functions]));
-        lines.into_iter().map(one_line).collect()
+        lines
     }
 
     /// The comments at the top of the problem.
     pub(super) fn problem_notes(&self) -> Vec<String> {
         let mut lines = vec!["written by typelift".to_owned()];
         lines.extend(respelled(&[&self.names.problem, &self.names.objects]));
-        lines.into_iter().map(one_line).collect()
+        lines
     }
 
     /// The comments before an action: the answer to "why?", and what is executed if that is called otherwise.
@@ -43,7 +43,7 @@ impl Writer<'_> {
             let args: Vec<String> = args.collect();
             lines.push(format!("executes {}({})", action.call.name, args.join(", ")));
         }
-        lines.into_iter().map(one_line).collect()
+        lines
     }
 
     fn provenance(&self, action: &ActionSchema) -> String {
@@ -70,9 +70,4 @@ impl Writer<'_> {
 fn respelled(names: &[&PddlNames]) -> Vec<String> {
     let pairs = ExportNames::respelled(names);
     pairs.into_iter().map(|(name, pddl)| format!("{pddl} stands for {name}")).collect()
-}
-
-/// A line feed in a name must not end the comment.
-fn one_line(text: String) -> String {
-    text.replace(['\n', '\r'], " ")
 }

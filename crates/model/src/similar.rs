@@ -1,6 +1,6 @@
 //! Names that somebody may have meant.
 
-use typelift_model::Symbol;
+use crate::Symbol;
 
 /// The name among `names` that differs least from `name`: in case only, or else in at most a third of its letters.
 /// Of several, the first.
@@ -21,7 +21,7 @@ pub fn nearest<'a>(name: &str, names: impl IntoIterator<Item = &'a Symbol>) -> O
 }
 
 /// ``Did you mean `x`?``, if there is a name near enough.
-pub(crate) fn did_you_mean<'a>(name: &str, names: impl IntoIterator<Item = &'a Symbol>) -> Option<String> {
+pub fn did_you_mean<'a>(name: &str, names: impl IntoIterator<Item = &'a Symbol>) -> Option<String> {
     nearest(name, names).map(|near| format!("Did you mean `{near}`?"))
 }
 
