@@ -6,6 +6,7 @@
 mod account;
 mod demo;
 mod exit;
+mod export;
 mod failure;
 mod files;
 mod goal_check;
@@ -45,6 +46,7 @@ enum Command {
     Learn(learn::Learn),
     Show(show::Show),
     Plan(plan::Plan),
+    Export(export::Export),
     Run(run::Run),
     Kitchen(kitchen::Kitchen),
 }
@@ -65,6 +67,7 @@ fn main() -> ExitCode {
         Command::Learn(learn) => learn.run(quiet),
         Command::Show(show) => show.run(),
         Command::Plan(plan) => plan.run(clock, quiet),
+        Command::Export(export) => export.run(),
         Command::Run(run) => run.run(clock, quiet),
         Command::Kitchen(kitchen) => kitchen.run(quiet),
     };

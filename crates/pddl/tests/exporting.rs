@@ -395,6 +395,7 @@ fn too_many_facts_are_refused_before_they_are_written() {
     let mut model = model();
     model.actions[0].parameters = parameters(&[("a", "agent"), ("m", "machine"), ("s", "station"), ("t", "station")]);
     model.actions[0].preconditions.push(literal("not wide(?1,?2,?3)"));
+    model.predicates.insert("wide".into(), 3);
     let mut task = task();
     let saw = model.hierarchy.id("Saw").expect("a type");
     task.init.objects.extend((0..200).map(|i| (Symbol::from(format!("s{i}")), saw)));
