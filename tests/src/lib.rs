@@ -95,7 +95,7 @@ pub fn planning_task(model: &ActionModel, task: &KitchenTask, seed: u64) -> Task
     let reset = Reset { seed, scenario: Some(task.scenario.clone()) };
     let scene = Kitchen::new().reset(&reset).expect("the simulator works");
     let mut parser = Parser::new(model.hierarchy.clone(), model.parse.clone());
-    Task { init: parser.parse(&scene).expect("a state"), goal: task.goal.clone() }
+    Task::new(parser.parse(&scene).expect("a state"), task.goal.clone())
 }
 
 /// What an action is, whatever its parameters are called or numbered beyond the call's arguments: its text under every

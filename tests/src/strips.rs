@@ -56,7 +56,7 @@ fn action(number: usize, objects: usize) -> impl Strategy<Value = ActionSchema> 
     (0..=3_usize).prop_flat_map(move |n| {
         let literals = |range| prop::collection::vec(literal(n, objects), range);
         let effect = (prop_oneof![3 => literals(0..1), 1 => literals(1..3)], literal(n, objects))
-            .prop_map(|(condition, literal)| Effect { condition, literal });
+            .prop_map(|(condition, literal)| Effect::when(condition, literal));
         let pairs = prop::collection::vec(any::<bool>(), 3);
         (prop::collection::vec(0..TYPES.len(), n), literals(0..3), prop::collection::vec(effect, 2..5), pairs, 1..3_u32)
             .prop_map(move |(types_drawn, mut preconditions, mut effects, pairs, cost)| {
@@ -81,7 +81,7 @@ fn action(number: usize, objects: usize) -> impl Strategy<Value = ActionSchema> 
                     preconditions,
                     distinct,
                     effects,
-                    cost,
+                    cost: cost.into(),
                     provenance: Provenance::Given,
                 }
             })
@@ -102,7 +102,7 @@ pub fn tiny(most: usize) -> impl Strategy<Value = Tiny> {
             let init = State { objects, atoms, unknown: BTreeSet::new() };
             let predicates = PREDICATES.iter().map(|(name, n)| (Symbol::new(name), *n)).collect();
             let model = ActionModel { hierarchy: hierarchy.clone(), predicates, actions, ..ActionModel::default() };
-            let mut task = Task { init, goal: Vec::new() };
+            let mut task = Task::new(init, Vec::new());
             // Mostly what is reachable, and the hardest of that: anything else is unsolvable, or solved in a step.
             let reachable = reachable_in_order(&all_instances(&model, &task), &task);
             let hard = &reachable[reachable.len() * 3 / 4..];
@@ -173,7 +173,7 @@ pub fn all_instances(model: &ActionModel, task: &Task) -> Vec<Instance> {
                     .iter()
                     .map(|e| (e.condition.iter().map(signed).collect(), e.literal.positive, atom(&e.literal.atom)))
                     .collect(),
-                cost: schema.cost,
+                cost: schema.cost.fixed,
                 objects,
             });
         }

@@ -24,12 +24,9 @@ fn world() -> (ActionModel, Task) {
         effects: vec![
             Effect::always(Literal::negative(lifted("done(?0)"))),
             Effect::always(Literal::positive(lifted("done(?1)"))),
-            Effect {
-                condition: vec![Literal::positive(lifted("lit(?0)"))],
-                literal: Literal::negative(lifted("lit(?1)")),
-            },
+            Effect::when(vec![Literal::positive(lifted("lit(?0)"))], Literal::negative(lifted("lit(?1)"))),
         ],
-        cost: 1,
+        cost: 1.into(),
         provenance: Provenance::Given,
     };
     let mut task = Task { goal: vec![GroundAtom::parse("done(x)").expect("an atom")], ..Task::default() };
@@ -75,7 +72,7 @@ fn goals_that_exclude_each_other_are_not_searched_for() {
             .iter()
             .map(|&(atom, positive)| Effect::always(Literal { atom: lifted(atom), positive }))
             .collect(),
-        cost: 1,
+        cost: 1.into(),
         provenance: Provenance::Given,
     };
     let cut = action("cut", &[("cut()", true), ("whole()", false)]);

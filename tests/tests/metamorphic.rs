@@ -96,7 +96,7 @@ impl Renaming {
     }
 
     fn task(&self, task: &Task) -> Task {
-        Task { init: self.state(&task.init), goal: task.goal.iter().map(|atom| self.ground(atom)).collect() }
+        Task::new(self.state(&task.init), task.goal.iter().map(|atom| self.ground(atom)).collect())
     }
 
     fn dataset(&self, dataset: &Dataset) -> Dataset {

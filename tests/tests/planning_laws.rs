@@ -136,14 +136,12 @@ fn renamed(task: &Task, multiplier: usize) -> Task {
         .map(|(i, name)| (name, Symbol::from(format!("n{:02}", number(i)))))
         .collect();
     let atom = |atom: &GroundAtom| atom.map(|arg| names[arg].clone());
-    Task {
-        init: State {
-            objects: task.init.objects.iter().map(|(name, ty)| (names[name].clone(), *ty)).collect(),
-            atoms: task.init.atoms.iter().map(atom).collect(),
-            unknown: BTreeSet::new(),
-        },
-        goal: task.goal.iter().map(atom).collect(),
-    }
+    let init = State {
+        objects: task.init.objects.iter().map(|(name, ty)| (names[name].clone(), *ty)).collect(),
+        atoms: task.init.atoms.iter().map(atom).collect(),
+        unknown: BTreeSet::new(),
+    };
+    Task::new(init, task.goal.iter().map(atom).collect())
 }
 
 #[test]
@@ -407,14 +405,14 @@ fn a_further_plan_may_differ_in_any_action() {
         preconditions: Vec::new(),
         distinct: Vec::new(),
         effects: vec![Effect::always(Literal::positive(Atom::new(add, Vec::new())))],
-        cost: 1,
+        cost: 1.into(),
         provenance: Provenance::Given,
     };
     for detour in ["a", "z"] {
         let mut actions = vec![action(detour, "noise"), action("b", "done")];
         actions.sort_by(|a, b| a.name.cmp(&b.name));
         let model = ActionModel { actions, ..ActionModel::default() };
-        let task = Task { init: State::default(), goal: vec![GroundAtom::new("done", Vec::new())] };
+        let task = Task::from(vec![GroundAtom::new("done", Vec::new())]);
         let options = plan::Options { plans: 2, ..plan::Options::default() };
         let mut planner =
             Planner::new(&model, &task, &Restrictions::default(), &options, &Budget::unlimited()).expect("no limits");

@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-use typelift_model::{ActionModel, Budget, GroundAction, GroundAtom, Plan, Provenance, State, Stop, Symbol, Task};
+use typelift_model::{ActionModel, Budget, GroundAction, Plan, Provenance, State, Stop, Symbol, Task};
 use typelift_plan::{Ban, Cut, Exclusion, Outcome};
 
 use crate::account::{Account, Ending, Failure};
@@ -33,7 +33,8 @@ enum Phase {
 #[derive(Debug)]
 pub struct Episode {
     model: Arc<ActionModel>,
-    goal: Vec<GroundAtom>,
+    /// What is to be achieved; its initial state is not looked at.
+    task: Task,
     options: Options,
     budget: Budget,
     experience: Experience,
@@ -59,10 +60,11 @@ pub struct Episode {
 }
 
 impl Episode {
-    /// An episode for this goal, with what earlier tasks of the run taught.
+    /// An episode for this goal, with what earlier tasks of the run taught. Of a whole task the initial state does not
+    /// count: it is observed.
     pub fn new(
         model: Arc<ActionModel>,
-        goal: Vec<GroundAtom>,
+        task: impl Into<Task>,
         options: Options,
         experience: Experience,
         budget: Budget,
@@ -70,7 +72,7 @@ impl Episode {
         Self {
             planned_with: ActionModel::default(),
             model,
-            goal,
+            task: task.into(),
             options,
             budget,
             inherited: experience.clone(),
@@ -115,7 +117,7 @@ impl Episode {
     /// # Errors
     /// [`ProposeError::Invalid`] if the planner errs.
     pub fn step(&mut self, input: Input, observer: &mut dyn Observer) -> Result<Command, ProposeError> {
-        match (&self.phase, input) {
+        match (&self.phase, self.completed(input)) {
             (Phase::Over, _) => Ok(Command::Done(Box::new(self.account.clone()))),
             (_, Input::Stop) => Ok(self.end(Ending::Stopped, observer)),
             (Phase::New, _) => {
@@ -150,6 +152,18 @@ impl Episode {
         }
     }
 
+    /// An input whose state holds what follows from it.
+    fn completed(&self, input: Input) -> Input {
+        let completed = |state: State| {
+            if self.model.axioms.is_empty() { state } else { self.model.with_derived(&state) }
+        };
+        match input {
+            Input::Observation(state) => Input::Observation(completed(state)),
+            Input::Refused { reason, state } => Input::Refused { reason, state: completed(state) },
+            other => other,
+        }
+    }
+
     fn end(&mut self, ending: Ending, observer: &mut dyn Observer) -> Command {
         self.phase = Phase::Over;
         self.account.ending = ending;
@@ -159,7 +173,7 @@ impl Episode {
 
     /// Plans from the current state.
     fn propose(&mut self, observer: &mut dyn Observer) -> Result<Command, ProposeError> {
-        if self.state.satisfies(&self.goal) {
+        if self.task.goal_holds(&self.state) {
             // It held from the start, or came about by a step that otherwise failed.
             self.account.plan = Some(Plan { steps: self.plan.steps[..self.taken].to_vec() });
             return Ok(self.end(Ending::Solved, observer));
@@ -254,7 +268,7 @@ impl Episode {
 
     fn plan_once(&mut self, options: &Options, observer: &mut dyn Observer) -> Result<Proposal, ProposeError> {
         observer.event(&Event::PlanningStarted { proposal: self.account.proposals + 1 });
-        let task = Task { init: self.state.clone(), goal: self.goal.clone() };
+        let task = self.task.from_state(self.state.clone());
         let mut restrictions = self.experience.restrictions();
         if self.bans_only {
             restrictions.excluded.clear();
@@ -276,7 +290,7 @@ impl Episode {
     /// Goes on to the next step of the plan, or ends it.
     fn advance(&mut self, observer: &mut dyn Observer) -> Result<Command, ProposeError> {
         if self.next_step == self.plan.len() {
-            if self.state.satisfies(&self.goal) {
+            if self.task.goal_holds(&self.state) {
                 self.account.plan = Some(self.plan.clone());
                 return Ok(self.end(Ending::Solved, observer));
             }
@@ -405,7 +419,7 @@ impl Episode {
     fn blamed(&self, objects: &[Symbol]) -> Vec<Exclusion> {
         let call = (!self.options.restart).then(|| self.plan.steps[self.next_step].call.name.clone());
         let is_actor = |object: &Symbol| self.state.objects.get(object).is_some_and(|ty| self.model.is_actor(*ty));
-        let in_goal = |object: &Symbol| self.goal.iter().any(|atom| atom.args.contains(object));
+        let in_goal = |object: &Symbol| self.task.goal_literals().any(|(atom, _)| atom.args.contains(object));
         let mut objects: Vec<&Symbol> = objects.iter().filter(|o| !is_actor(o) && !in_goal(o)).collect();
         objects.sort_unstable();
         objects.dedup();

@@ -12,6 +12,10 @@
 //! ```
 #![deny(missing_docs)]
 
+mod validate;
+
+pub use validate::{Valid, validate};
+
 use thiserror::Error;
 use typelift_model::{ActionModel, GroundAction, GroundAtom, InstantiateError, Plan, State, Step, Symbol, Task};
 
@@ -46,6 +50,18 @@ pub enum Invalid {
         /// What the step says.
         found: String,
     },
+    /// A step is said to cost something else than its action does.
+    #[error("step {step}: {action} costs {expected} there, not {found}")]
+    Cost {
+        /// The step.
+        step: usize,
+        /// The action.
+        action: Symbol,
+        /// What it costs.
+        expected: u32,
+        /// What the step says.
+        found: u32,
+    },
     /// A precondition does not hold.
     #[error("step {step}: {action} needs {}{atom}", if *.positive { "" } else { "not " })]
     Precondition {
@@ -58,35 +74,53 @@ pub enum Invalid {
         /// Whether it must hold, or must not.
         positive: bool,
     },
+    /// An action that can be used in several ways can be used in none.
+    #[error("step {step}: {action} cannot be used: {}", .reasons.join("; or "))]
+    NoCase {
+        /// The step.
+        step: usize,
+        /// The action, as the plan names it.
+        action: Symbol,
+        /// For each way, what is missing.
+        reasons: Vec<String>,
+    },
     /// The goal does not hold in the end.
-    #[error("the goal {atom} does not hold in the end")]
+    #[error("the goal {}{atom} does not hold in the end", if *.positive { "" } else { "not " })]
     Goal {
-        /// The first goal atom that does not.
+        /// The first goal atom that does not, or does and must not.
         atom: GroundAtom,
+        /// Whether it must hold.
+        positive: bool,
     },
 }
 
 /// Replays the plan from the task's initial state and returns the final state, in which the goal holds.
 ///
 /// # Errors
-/// [`Invalid`] names the first step that cannot be taken, or the goal atom that is missed.
+/// [`Invalid`] names the first step that cannot be taken, or the first part of the goal that is missed.
 pub fn check(model: &ActionModel, task: &Task, plan: &Plan) -> Result<State, Invalid> {
-    let mut state = task.init.clone();
+    let mut state = model.with_derived(&task.init);
     for (i, step) in plan.steps.iter().enumerate() {
-        let action = resolve(model, &state, i + 1, step)?;
+        let action = resolve(model, task, &state, i + 1, step)?;
         if let Some((atom, positive)) = action.unmet(&state).next() {
             let (step, action) = (i + 1, action.schema.clone());
             return Err(Invalid::Precondition { step, action, atom: atom.clone(), positive: *positive });
         }
-        apply(&action, &mut state);
+        state = successor(model, &action, &state);
     }
-    match task.goal.iter().find(|atom| !state.holds(atom)) {
-        Some(atom) => Err(Invalid::Goal { atom: atom.clone() }),
+    match task.goal_literals().find(|&(atom, positive)| state.holds(atom) != positive) {
+        Some((atom, positive)) => Err(Invalid::Goal { atom: atom.clone(), positive }),
         None => Ok(state),
     }
 }
 
-fn resolve(model: &ActionModel, state: &State, step: usize, taken: &Step) -> Result<GroundAction, Invalid> {
+fn resolve(
+    model: &ActionModel,
+    task: &Task,
+    state: &State,
+    step: usize,
+    taken: &Step,
+) -> Result<GroundAction, Invalid> {
     let schema = model
         .action(taken.action.as_str())
         .ok_or_else(|| Invalid::UnknownAction { step, action: taken.action.clone() })?;
@@ -101,25 +135,32 @@ fn resolve(model: &ActionModel, state: &State, step: usize, taken: &Step) -> Res
             found: taken.call.to_string(),
         });
     }
+    let no_cost = || Invalid::Objects { step, error: InstantiateError::NoCost { action: taken.action.clone() } };
+    let cost = schema.cost.of(&taken.objects, &task.values).ok_or_else(no_cost)?;
+    if cost != taken.cost {
+        return Err(Invalid::Cost { step, action: taken.action.clone(), expected: cost, found: taken.cost });
+    }
     Ok(action)
 }
 
-/// Deletes, then adds.
-fn apply(action: &GroundAction, state: &mut State) {
+/// The state after an action: deletes, then adds, then what follows.
+fn successor(model: &ActionModel, action: &GroundAction, state: &State) -> State {
+    let mut after = state.clone();
     for atom in &action.deletes {
-        state.atoms.remove(atom);
-        state.unknown.remove(atom);
+        after.atoms.remove(atom);
+        after.unknown.remove(atom);
     }
     for atom in &action.adds {
-        state.unknown.remove(atom);
-        state.atoms.insert(atom.clone());
+        after.unknown.remove(atom);
+        after.atoms.insert(atom.clone());
     }
+    if model.axioms.is_empty() { after } else { model.with_derived(&after) }
 }
 
 #[cfg(test)]
 mod tests {
     use typelift_model::{
-        ActionSchema, Effect, GroundCall, Hierarchy, LiftedAtom, LiftedCall, Literal, Parameter, Provenance, Term,
+        ActionSchema, Cost, Effect, GroundCall, Hierarchy, LiftedAtom, LiftedCall, Literal, Parameter, Provenance, Term,
     };
 
     use super::*;
@@ -146,12 +187,9 @@ mod tests {
             effects: vec![
                 Effect::always(Literal::positive(lifted("in(?1)"))),
                 Effect::always(Literal::negative(lifted("in(?0)"))),
-                Effect {
-                    condition: vec![Literal::positive(lifted("lit(?0)"))],
-                    literal: Literal::negative(lifted("lit(?0)")),
-                },
+                Effect::when(vec![Literal::positive(lifted("lit(?0)"))], Literal::negative(lifted("lit(?0)"))),
             ],
-            cost: 1,
+            cost: Cost::UNIT,
             provenance: Provenance::Given,
         };
         ActionModel { hierarchy, actions: vec![go], ..ActionModel::default() }
@@ -169,7 +207,7 @@ mod tests {
     }
 
     fn go(from: &str, to: &str) -> Step {
-        model().actions[0].step(vec![from.into(), to.into()])
+        model().actions[0].step(vec![from.into(), to.into()], 1)
     }
 
     fn verdict(steps: Vec<Step>, goal: &str) -> Result<State, String> {

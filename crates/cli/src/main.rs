@@ -14,6 +14,9 @@ mod kitchen;
 mod learn;
 mod limits;
 mod narrate;
+mod pddl;
+mod pddl_check;
+mod pddl_domains;
 mod plan;
 mod plan_text;
 mod run;
@@ -48,6 +51,7 @@ enum Command {
     Plan(plan::Plan),
     Export(export::Export),
     Run(run::Run),
+    Pddl(pddl::Pddl),
     Kitchen(kitchen::Kitchen),
 }
 
@@ -69,6 +73,7 @@ fn main() -> ExitCode {
         Command::Plan(plan) => plan.run(clock, quiet),
         Command::Export(export) => export.run(),
         Command::Run(run) => run.run(clock, quiet),
+        Command::Pddl(pddl) => pddl.run(quiet),
         Command::Kitchen(kitchen) => kitchen.run(quiet),
     };
     ended.unwrap_or_else(|failure: Failure| failure.report()).into()

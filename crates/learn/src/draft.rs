@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use typelift_model::{
-    ActionModel, ActionSchema, ClusterKey, Effect, Evidence, Hierarchy, LiftedAtom, LiftedCall, Literal, Parameter,
-    Provenance, Source, Symbol, Term, TypeId, UniqueNames,
+    ActionModel, ActionSchema, ClusterKey, Cost, Effect, Evidence, Hierarchy, LiftedAtom, LiftedCall, Literal,
+    Parameter, Provenance, Source, Symbol, Term, TypeId, UniqueNames,
 };
 
 use crate::LearnError;
@@ -70,7 +70,7 @@ impl Draft {
             parameters: self.types.iter().enumerate().map(parameter).collect(),
             preconditions: self.preconditions.into_iter().map(Literal::positive).collect(),
             effects,
-            cost: 1,
+            cost: Cost::UNIT,
             provenance,
         }
     }

@@ -34,7 +34,7 @@ mod score;
 use std::collections::BTreeMap;
 
 use thiserror::Error;
-use typelift_model::{ActionModel, Evidence, Hierarchy, ParseConfig, Symbol};
+use typelift_model::{ActionModel, Evidence, Hierarchy, Symbol};
 use typelift_world::Dataset;
 
 pub use cluster::observe;
@@ -142,10 +142,9 @@ pub fn learn(hierarchy: &Hierarchy, evidence: Evidence, options: &Options) -> Re
     let mut model = ActionModel {
         predicates: predicates_of(&actions),
         hierarchy: hierarchy.clone(),
-        parse: ParseConfig::default(),
-        actor: None,
         actions: actions.into_iter().map(Draft::into_schema).collect(),
         evidence,
+        ..ActionModel::default()
     };
     model.actor = match &options.actor {
         None => model.default_actor(),

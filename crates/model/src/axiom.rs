@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::instantiate::for_each_choice;
+use crate::choices::Choices;
 use crate::{ActionModel, GroundAtom, Hierarchy, LiftedAtom, Literal, Parameter, State, Symbol};
 
 /// One way in which an atom follows (PDDL 2.2's derived predicates; Thiébaux, Hoffmann and Nebel 2005): for every choice
@@ -27,8 +27,8 @@ impl ActionModel {
         self.axioms.iter().map(|axiom| &axiom.head.predicate).collect()
     }
 
-    /// The state with what follows from it: atoms of derived predicates that it holds are replaced. Plain and slow, for
-    /// replaying plans.
+    /// The state with what follows from it: atoms of derived predicates that it holds are replaced. Plain, for replaying
+    /// plans.
     pub fn with_derived(&self, state: &State) -> State {
         let mut state = state.clone();
         if self.axioms.is_empty() {
@@ -57,12 +57,8 @@ impl Axiom {
     /// The heads of which the body holds.
     fn consequences(&self, state: &State, hierarchy: &Hierarchy) -> Vec<GroundAtom> {
         let mut heads = Vec::new();
-        for_each_choice(&self.parameters, &mut Vec::new(), state, hierarchy, &mut |objects| {
-            let ground = |atom: &LiftedAtom| atom.map(|term| term.object(objects));
-            if self.body.iter().all(|literal| state.holds(&ground(&literal.atom)) == literal.positive) {
-                heads.push(ground(&self.head));
-            }
-        });
+        let choices = Choices { parameters: &self.parameters, condition: &self.body, state, hierarchy };
+        choices.for_each(&[], &mut |objects| heads.push(self.head.map(|term| term.object(objects))));
         heads
     }
 }

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use thiserror::Error;
 
-use crate::{ActionSchema, GroundAtom, GroundCall, Hierarchy, Parameter, State, Symbol, Term};
+use crate::choices::Choices;
+use crate::{ActionSchema, GroundAtom, GroundCall, Hierarchy, State, Symbol, Term};
 
 /// Why an action schema and a list of objects do not make a ground action.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -118,12 +119,10 @@ impl ActionSchema {
         }
         let mut changes: BTreeMap<GroundAtom, bool> = BTreeMap::new();
         for effect in &self.effects {
-            for_each_choice(&effect.parameters, &mut objects.to_vec(), state, hierarchy, &mut |chosen| {
-                let term = |term: &Term| term.object(chosen);
-                if effect.condition.iter().all(|l| state.holds(&l.atom.map(term)) == l.positive) {
-                    let added = changes.entry(effect.literal.atom.map(term)).or_default();
-                    *added |= effect.literal.positive;
-                }
+            let choices = Choices { parameters: &effect.parameters, condition: &effect.condition, state, hierarchy };
+            choices.for_each(objects, &mut |chosen| {
+                let added = changes.entry(effect.literal.atom.map(|term| term.object(chosen))).or_default();
+                *added |= effect.literal.positive;
             });
         }
         let term = |term: &Term| term.object(objects);
@@ -136,23 +135,5 @@ impl ActionSchema {
             adds: select(true),
             deletes: select(false),
         })
-    }
-}
-
-/// Calls `each` with `chosen` extended by every choice of objects for these parameters.
-pub(crate) fn for_each_choice(
-    parameters: &[Parameter],
-    chosen: &mut Vec<Symbol>,
-    state: &State,
-    hierarchy: &Hierarchy,
-    each: &mut impl FnMut(&[Symbol]),
-) {
-    let Some((first, rest)) = parameters.split_first() else { return each(chosen) };
-    for (object, ty) in &state.objects {
-        if hierarchy.is_a(*ty, first.ty) {
-            chosen.push(object.clone());
-            for_each_choice(rest, chosen, state, hierarchy, each);
-            chosen.pop();
-        }
     }
 }

@@ -17,6 +17,7 @@ mod action_model_reader;
 mod atom;
 mod axiom;
 mod budget;
+mod choices;
 mod evidence;
 mod hierarchy;
 mod instantiate;

@@ -29,8 +29,20 @@ impl Task {
         Self { init, ..self.clone() }
     }
 
+    /// Whether the goal holds in a state, which holds all that follows from it.
+    pub fn goal_holds(&self, state: &State) -> bool {
+        self.goal_literals().all(|(atom, positive)| state.holds(atom) == positive)
+    }
+
     /// The goal as literals: each atom, and whether it must hold.
     pub fn goal_literals(&self) -> impl Iterator<Item = (&GroundAtom, bool)> {
         self.goal.iter().map(|atom| (atom, true)).chain(self.negative_goal.iter().map(|atom| (atom, false)))
+    }
+}
+
+impl From<Vec<GroundAtom>> for Task {
+    /// A goal alone.
+    fn from(goal: Vec<GroundAtom>) -> Self {
+        Self::new(State::default(), goal)
     }
 }

@@ -23,6 +23,7 @@ mod names;
 mod objects;
 mod position;
 mod problem_reader;
+mod required;
 mod requirements;
 mod scope;
 mod sexpr;
@@ -40,6 +41,7 @@ pub use export::{ExportError, ExportNames, ExportOptions, Exported, Level, MOST_
 pub use objects::{Declarations, ObjectDeclaration, read_objects};
 pub use position::{Position, Span};
 pub use problem_reader::read_problem;
+pub use required::{required_by_domain, required_by_problem, undeclared_requirements};
 pub use sexpr::{Children, Document, Sexpr};
 pub use syntax::{
     Action, Amount, Derived, Domain, Formula, MOST_NESTED, PddlAtom, PddlEffect, PddlTerm, Problem, Signature, Typed,

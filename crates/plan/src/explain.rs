@@ -69,6 +69,8 @@ pub struct UnreachableGoal {
     pub atom: GroundAtom,
     /// The nearest action; none if no action adds an atom of this predicate.
     pub nearest: Option<Nearest>,
+    /// Whether its predicate is derived, so that no action adds it.
+    pub derived: bool,
 }
 
 /// Why there is no plan.
@@ -83,10 +85,12 @@ pub enum Explanation {
         /// The other.
         other: GroundAtom,
     },
+    /// These atoms must not hold in the end, but do from the start, and no action deletes them.
+    Lasting(Vec<GroundAtom>),
     /// Each goal atom can be reached, but not all together; where the search came closest, these were missing.
     NotTogether {
-        /// The missing goal atoms.
-        missing: Vec<GroundAtom>,
+        /// The missing goal atoms, and whether each must hold.
+        missing: Vec<(GroundAtom, bool)>,
     },
 }
 
@@ -100,6 +104,7 @@ impl fmt::Display for Explanation {
                     }
                     write!(f, "{} cannot be reached: ", goal.atom)?;
                     match &goal.nearest {
+                        None if goal.derived => f.write_str("it follows from nothing that can be reached")?,
                         None => write!(f, "no action adds {}", goal.atom.predicate)?,
                         Some(nearest) if nearest.misfits.is_empty() => {
                             write!(f, "no choice of objects satisfies all preconditions of {}", nearest.action)?;
@@ -115,8 +120,18 @@ impl fmt::Display for Explanation {
             Self::Exclusive { one, other } => {
                 write!(f, "{one} and {other} cannot hold together: whatever achieves the one deletes the other")
             }
+            Self::Lasting(atoms) => {
+                let lines: Vec<String> = atoms
+                    .iter()
+                    .map(|atom| format!("{atom} must not hold in the end, but no action deletes it"))
+                    .collect();
+                f.write_str(&lines.join("\n"))
+            }
             Self::NotTogether { missing } => {
-                let missing: Vec<String> = missing.iter().map(ToString::to_string).collect();
+                let missing: Vec<String> = missing
+                    .iter()
+                    .map(|(atom, positive)| format!("{}{atom}", if *positive { "" } else { "not " }))
+                    .collect();
                 write!(
                     f,
                     "each goal can be reached alone, but not all together; at best this is missing: {}",
@@ -145,7 +160,11 @@ pub(crate) fn unreachable(
     ground
         .unreachable_goals()
         .iter()
-        .map(|atom| UnreachableGoal { atom: atom.clone(), nearest: nearest(atom) })
+        .map(|atom| UnreachableGoal {
+            atom: atom.clone(),
+            nearest: nearest(atom),
+            derived: model.axioms.iter().any(|axiom| axiom.head.predicate == atom.predicate),
+        })
         .collect()
 }
 

@@ -84,6 +84,10 @@ impl Facts {
         self.ids.get(&(predicate, args)).copied()
     }
 
+    pub(crate) fn find_by_ids(&self, predicate: u32, args: Box<[ObjectId]>) -> Option<FactId> {
+        self.ids.get(&(predicate, args)).copied()
+    }
+
     pub(crate) fn atom(&self, id: FactId) -> GroundAtom {
         let (predicate, args) = &self.keys[id.index()];
         GroundAtom {

@@ -8,6 +8,7 @@ use std::collections::BTreeSet;
 use typelift_model::{ActionModel, ActionSchema, Budget, GroundAtom, HashMap, HashSet, Step, Symbol, Task};
 
 use crate::Restrictions;
+use crate::axiom::Axioms;
 use crate::fact::{FactId, Facts};
 use crate::reach::{Cut, RawOp, Reached, reach};
 
@@ -77,10 +78,16 @@ pub struct Op {
 pub struct GroundTask {
     schemas: Vec<ActionSchema>,
     facts: Facts,
+    /// The actions, then the axioms.
     ops: Vec<Op>,
+    /// How many of `ops` are actions.
+    actions: usize,
+    axioms: Axioms,
     init: Vec<FactId>,
     goal: Vec<FactId>,
+    negative_goal: Vec<FactId>,
     goal_atoms: Vec<GroundAtom>,
+    negative_goal_atoms: Vec<GroundAtom>,
     unreachable: Vec<GroundAtom>,
     ops_before_deduplication: usize,
 }
@@ -96,8 +103,10 @@ pub fn ground(
     order: TieOrder,
     budget: &Budget,
 ) -> Result<GroundTask, Cut> {
-    let Reached { mut facts, ops: mut raw } = reach(model, task, restrictions, budget)?;
-    let init: Vec<FactId> = task.init.atoms.iter().filter_map(|atom| facts.find(atom)).collect();
+    let Reached { mut facts, ops: mut raw, axioms: raw_axioms } = reach(model, task, restrictions, budget)?;
+    let derived = model.derived_predicates();
+    let basic = task.init.atoms.iter().filter(|atom| !derived.contains(&atom.predicate));
+    let init: Vec<FactId> = basic.filter_map(|atom| facts.find(atom)).collect();
     let (mut goal, mut unreachable) = (Vec::new(), Vec::new());
     for atom in &task.goal {
         match facts.intern_atom(atom) {
@@ -107,9 +116,12 @@ pub fn ground(
     }
     goal.sort_unstable();
     goal.dedup();
+    // What is never reached never holds.
+    let negative_goal: Vec<FactId> =
+        task.negative_goal.iter().filter_map(|atom| facts.find(atom)).filter(|&f| facts.is_reached(f)).collect();
     let rank = schema_ranks(model, order);
     raw.sort_by(|a, b| (rank[a.schema], &a.objects).cmp(&(rank[b.schema], &b.objects)));
-    let mentioned: BTreeSet<&Symbol> = task.goal.iter().flat_map(|atom| &atom.args).collect();
+    let mentioned: BTreeSet<&Symbol> = task.goal_literals().flat_map(|(atom, _)| &atom.args).collect();
     let touches_goal = |op: &RawOp| {
         op.objects.iter().any(|&object| {
             let ty = task.init.objects[facts.name(object)];
@@ -122,7 +134,10 @@ pub fn ground(
     for op in raw {
         let schema = &model.actions[op.schema];
         let touches_goal = touches_goal(&op);
-        let op = resolve(op, schema, &facts, touches_goal);
+        let objects: Vec<Symbol> = op.objects.iter().map(|&o| facts.name(o).clone()).collect();
+        // Where what it costs is not stated, an action cannot be used.
+        let Some(cost) = schema.cost.of(&objects, &task.values) else { continue };
+        let op = resolve(op, objects, cost, &facts, touches_goal);
         let call: Vec<Symbol> = schema.call.args.iter().map(|term| term.object(&op.objects)).collect();
         let identity = (schema.call.name.clone(), call, op.preconditions.clone(), op.negative.clone(), op.cost);
         let effect = (op.adds.clone(), op.deletes.clone(), op.conditional.clone());
@@ -130,9 +145,30 @@ pub fn ground(
             ops.push(op);
         }
     }
-    let goal_atoms = task.goal.clone();
+    let actions = ops.len();
+    let mut strata = Vec::with_capacity(raw_axioms.len());
+    for axiom in raw_axioms {
+        strata.push(model.axioms[axiom.schema].stratum);
+        ops.push(resolve(axiom, Vec::new(), 0, &facts, false));
+    }
+    let axioms = Axioms::new(&ops[actions..], &strata, &facts);
+    let init = axioms.closed(&init, facts.len());
+    let (goal_atoms, negative_goal_atoms) = (task.goal.clone(), task.negative_goal.clone());
     let schemas = model.actions.clone();
-    Ok(GroundTask { schemas, facts, ops, init, goal, goal_atoms, unreachable, ops_before_deduplication })
+    Ok(GroundTask {
+        schemas,
+        facts,
+        ops,
+        actions,
+        axioms,
+        init,
+        goal,
+        negative_goal,
+        goal_atoms,
+        negative_goal_atoms,
+        unreachable,
+        ops_before_deduplication,
+    })
 }
 
 /// The place of each schema in the order in which successors are tried.
@@ -158,7 +194,7 @@ fn schema_ranks(model: &ActionModel, order: TieOrder) -> Vec<usize> {
 
 /// Drops what can never matter: deletes and negative conditions on facts that are never reached, effects whose
 /// condition never is.
-fn resolve(raw: RawOp, schema: &ActionSchema, facts: &Facts, touches_goal: bool) -> Op {
+fn resolve(raw: RawOp, objects: Vec<Symbol>, cost: u32, facts: &Facts, touches_goal: bool) -> Op {
     let reached = |list: Vec<FactId>| {
         let mut list: Vec<FactId> = list.into_iter().filter(|&f| facts.is_reached(f)).collect();
         list.sort_unstable();
@@ -186,13 +222,13 @@ fn resolve(raw: RawOp, schema: &ActionSchema, facts: &Facts, touches_goal: bool)
     conditional.sort_unstable();
     Op {
         schema: raw.schema,
-        objects: raw.objects.iter().map(|&o| facts.name(o).clone()).collect(),
+        objects,
         preconditions: reached(raw.preconditions),
         negative: reached(raw.negative),
         adds,
         deletes,
         conditional,
-        cost: schema.cost,
+        cost,
         touches_goal,
     }
 }
@@ -200,17 +236,27 @@ fn resolve(raw: RawOp, schema: &ActionSchema, facts: &Facts, touches_goal: bool)
 impl GroundTask {
     /// The ground actions, in the order in which they are tried.
     pub fn ops(&self) -> impl Iterator<Item = (OpId, &Op)> {
+        self.ops_and_axioms().take(self.actions)
+    }
+
+    /// The ground actions, then the ground axioms as actions without cost: all that makes facts true.
+    pub(crate) fn ops_and_axioms(&self) -> impl Iterator<Item = (OpId, &Op)> {
         self.ops.iter().enumerate().map(|(i, op)| (OpId::new(i), op))
     }
 
-    /// One ground action.
+    /// How derived facts follow.
+    pub(crate) fn axioms(&self) -> &Axioms {
+        &self.axioms
+    }
+
+    /// One ground action, or axiom.
     pub fn op(&self, id: OpId) -> &Op {
         &self.ops[id.index()]
     }
 
     /// The number of ground actions.
     pub fn op_count(&self) -> usize {
-        self.ops.len()
+        self.actions
     }
 
     /// The number of ground actions with those that only repeat another's call, preconditions and effect.
@@ -221,7 +267,7 @@ impl GroundTask {
     /// The ground action as a step of a plan.
     pub fn step(&self, id: OpId) -> Step {
         let op = self.op(id);
-        self.schemas[op.schema].step(op.objects.clone())
+        self.schemas[op.schema].step(op.objects.clone(), op.cost)
     }
 
     /// The number of facts, reached or not.
@@ -234,7 +280,7 @@ impl GroundTask {
         self.facts.atom(id)
     }
 
-    /// The facts of the initial state, sorted by atom.
+    /// The facts of the initial state, those that follow from the others last.
     pub fn init(&self) -> &[FactId] {
         &self.init
     }
@@ -242,6 +288,16 @@ impl GroundTask {
     /// The reachable goal facts, sorted.
     pub fn goal(&self) -> &[FactId] {
         &self.goal
+    }
+
+    /// The reachable facts that must not hold in the end.
+    pub fn negative_goal(&self) -> &[FactId] {
+        &self.negative_goal
+    }
+
+    /// The atoms that must not hold in the end, as it was asked.
+    pub fn negative_goal_atoms(&self) -> &[GroundAtom] {
+        &self.negative_goal_atoms
     }
 
     /// The goal as it was asked.

@@ -63,7 +63,7 @@ pub fn landmark_sequences(task: &GroundTask, budget: &Budget) -> Result<Vec<Land
 pub(crate) fn exclusive_goals(task: &GroundTask) -> Option<(FactId, FactId)> {
     let goal = task.goal();
     let mut achievers: Vec<Vec<&Op>> = vec![Vec::new(); goal.len()];
-    for (_, op) in task.ops() {
+    for (_, op) in task.ops_and_axioms() {
         for (fact, _) in added(op) {
             if let Ok(place) = goal.binary_search(&fact) {
                 achievers[place].push(op);
@@ -127,7 +127,7 @@ impl<'a> LandmarkSets<'a> {
         }
         // Which actions must be looked at again when the set of a fact changes.
         let mut users: Vec<Vec<OpId>> = vec![Vec::new(); n];
-        for (id, op) in task.ops() {
+        for (id, op) in task.ops_and_axioms() {
             for (fact, condition) in added(op) {
                 if this.achievers[fact.index()].last() != Some(&id) {
                     this.achievers[fact.index()].push(id);
@@ -139,8 +139,8 @@ impl<'a> LandmarkSets<'a> {
                 }
             }
         }
-        let mut queued = vec![true; task.op_count()];
-        let mut queue: VecDeque<OpId> = task.ops().map(|(id, _)| id).collect();
+        let mut queue: VecDeque<OpId> = task.ops_and_axioms().map(|(id, _)| id).collect();
+        let mut queued = vec![true; queue.len()];
         let mut work = 0_usize;
         while let Some(id) = queue.pop_front() {
             work += 1;

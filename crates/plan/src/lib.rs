@@ -10,6 +10,8 @@
 //! This crate has never heard of learning or imagination: it plans with whatever actions it is given.
 #![deny(missing_docs)]
 
+mod axiom;
+mod emit;
 mod explain;
 mod fact;
 mod ground;

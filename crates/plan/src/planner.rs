@@ -4,6 +4,7 @@ use typelift_model::{ActionModel, Budget, GroundAtom, Task};
 
 use crate::Restrictions;
 use crate::explain::{Explanation, unreachable};
+use crate::fact::FactId;
 use crate::ground::{GroundTask, TieOrder, ground};
 use crate::heuristic::OrderedLandmarks;
 use crate::landmark::{exclusive_goals, landmark_sequences};
@@ -35,7 +36,9 @@ pub struct Planner {
     ground: GroundTask,
     /// Two goals that cannot hold together.
     exclusive: Option<(GroundAtom, GroundAtom)>,
-    /// `None` if a goal is unreachable, or two exclude each other: there is nothing to search.
+    /// What must not hold in the end, but does for ever.
+    lasting: Vec<GroundAtom>,
+    /// `None` if a goal is unreachable, two exclude each other, or something lasts: there is nothing to search.
     search: Option<Search>,
 }
 
@@ -55,14 +58,15 @@ impl Planner {
     ) -> Result<Self, Cut> {
         let ground = ground(model, task, restrictions, options.tie_order, budget)?;
         let exclusive = exclusive_goals(&ground).map(|(a, b)| (ground.atom(a), ground.atom(b)));
-        let search = if ground.unreachable_goals().is_empty() && exclusive.is_none() {
+        let lasting = lasting(&ground);
+        let search = if ground.unreachable_goals().is_empty() && exclusive.is_none() && lasting.is_empty() {
             let heuristic = OrderedLandmarks::new(landmark_sequences(&ground, budget)?);
             Some(Search::new(&ground, Box::new(heuristic), options.plans))
         } else {
             None
         };
         let (model, task, restrictions) = (model.clone(), task.clone(), restrictions.clone());
-        Ok(Self { model, task, restrictions, ground, exclusive, search })
+        Ok(Self { model, task, restrictions, ground, exclusive, lasting, search })
     }
 
     /// The next plan: one whose multiset of actions was not found before. The budget's expansions are for this call.
@@ -106,14 +110,31 @@ impl Planner {
     /// Why no plan was found.
     pub fn explain(&self) -> Explanation {
         let Some(search) = &self.search else {
-            if let (Some((one, other)), []) = (&self.exclusive, self.ground.unreachable_goals()) {
-                return Explanation::Exclusive { one: one.clone(), other: other.clone() };
+            if self.ground.unreachable_goals().is_empty() {
+                if let Some((one, other)) = &self.exclusive {
+                    return Explanation::Exclusive { one: one.clone(), other: other.clone() };
+                }
+                return Explanation::Lasting(self.lasting.clone());
             }
             return Explanation::Unreachable(unreachable(&self.model, &self.task, &self.restrictions, &self.ground));
         };
-        let missing = |state: &[u64]| -> Vec<GroundAtom> {
-            self.ground.goal().iter().filter(|&&fact| !holds(state, fact)).map(|&fact| self.ground.atom(fact)).collect()
+        let missing = |state: &[u64]| {
+            let wanted = self.ground.goal().iter().map(|&fact| (fact, true));
+            let unwanted = self.ground.negative_goal().iter().map(|&fact| (fact, false));
+            let open = wanted.chain(unwanted).filter(|&(fact, positive)| holds(state, fact) != positive);
+            open.map(|(fact, positive)| (self.ground.atom(fact), positive)).collect()
         };
         Explanation::NotTogether { missing: search.closest_state().map(missing).unwrap_or_default() }
     }
+}
+
+/// What must not hold in the end, but holds initially and is neither deleted by any action nor derived.
+fn lasting(task: &GroundTask) -> Vec<GroundAtom> {
+    let is_deleted = |fact: FactId| {
+        task.ops().any(|(_, op)| {
+            op.deletes.binary_search(&fact).is_ok() || op.conditional.iter().any(|e| !e.adds && e.fact == fact)
+        })
+    };
+    let initially = task.negative_goal().iter().copied().filter(|fact| task.init().contains(fact));
+    initially.filter(|&fact| !task.axioms().derives(fact) && !is_deleted(fact)).map(|fact| task.atom(fact)).collect()
 }

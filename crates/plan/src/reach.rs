@@ -5,16 +5,15 @@
 //! the positive preconditions of every schema that mentions its predicate, always through the precondition with
 //! the fewest candidate facts under the bindings so far. The full product of objects is never formed; only
 //! parameters that no positive precondition mentions range over all objects of their type. Negative preconditions
-//! are ignored, as deletes are. An effect with a condition is reached when the positive part of it is.
-
-use std::collections::BTreeSet;
+//! are ignored, as deletes are, unless nothing ever changes what they speak of. An effect with a condition is reached
+//! when the positive part of it is. Axioms are joined as actions are.
 
 use thiserror::Error;
-use typelift_model::{ActionModel, ActionSchema, Budget, GroundAtom, HashMap, Stop, Symbol, Task};
+use typelift_model::{ActionModel, Budget, HashMap, HashSet, Stop, Task};
 
+use crate::Restrictions;
 use crate::fact::{FactId, Facts, ObjectId};
-use crate::pattern::{Arg, Compiled, Pattern, compile};
-use crate::{Ban, Restrictions};
+use crate::pattern::{Arg, Compiled, Compiler, Pattern, fluents};
 
 /// How often, in joins and ground actions, the budget is asked whether to stop.
 const POLL_INTERVAL: usize = 1 << 12;
@@ -30,10 +29,10 @@ pub enum Cut {
     Stopped(Stop),
 }
 
-/// A ground action as reachability finds it.
+/// A ground action or axiom as reachability finds it.
 #[derive(Debug, Clone)]
 pub(crate) struct RawOp {
-    /// The schema's index in the model.
+    /// The schema's or axiom's index in the model.
     pub(crate) schema: usize,
     pub(crate) objects: Box<[ObjectId]>,
     pub(crate) preconditions: Vec<FactId>,
@@ -54,6 +53,7 @@ pub(crate) struct RawEffect {
 pub(crate) struct Reached {
     pub(crate) facts: Facts,
     pub(crate) ops: Vec<RawOp>,
+    pub(crate) axioms: Vec<RawOp>,
 }
 
 /// The facts and ground actions reachable from the task's initial state without deletes.
@@ -64,15 +64,13 @@ pub(crate) fn reach(
     budget: &Budget,
 ) -> Result<Reached, Cut> {
     let mut facts = Facts::new(task);
-    let mut schemas = Vec::with_capacity(model.actions.len());
-    for (index, schema) in model.actions.iter().enumerate() {
-        if let Some(compiled) = compile(index, schema, model, restrictions, &mut facts) {
-            schemas.push(compiled);
-        }
-    }
+    let mut compiler = Compiler { model, restrictions, facts: &mut facts };
+    let mut schemas: Vec<Compiled<'_>> =
+        model.actions.iter().enumerate().filter_map(|(i, schema)| compiler.action(i, schema)).collect();
+    schemas.extend(model.axioms.iter().enumerate().filter_map(|(i, axiom)| compiler.axiom(i, axiom)));
     let mut triggers: Vec<Vec<(usize, usize)>> = vec![Vec::new(); facts.predicate_count()];
     for (s, schema) in schemas.iter().enumerate() {
-        for (k, pattern) in schema.preconditions.iter().enumerate() {
+        for (k, pattern) in schema.condition.positive.iter().enumerate() {
             triggers[pattern.predicate as usize].push((s, k));
         }
     }
@@ -80,7 +78,9 @@ pub(crate) fn reach(
         restrictions,
         budget,
         facts,
+        fluents: fluents(&schemas),
         ops: Vec::new(),
+        axioms: Vec::new(),
         queue: Vec::new(),
         by_predicate: HashMap::default(),
         by_argument: HashMap::default(),
@@ -90,13 +90,14 @@ pub(crate) fn reach(
         bytes: 0,
         work: 0,
     };
-    for atom in &task.init.atoms {
+    let derived = model.derived_predicates();
+    for atom in task.init.atoms.iter().filter(|atom| !derived.contains(&atom.predicate)) {
         if let Some(fact) = join.facts.intern_atom(atom) {
             join.reach_fact(fact);
         }
     }
-    for schema in schemas.iter().filter(|s| s.preconditions.is_empty()) {
-        join.extend(schema, &mut vec![None; schema.schema.parameters.len()], &mut Vec::new())?;
+    for schema in schemas.iter().filter(|s| s.condition.positive.is_empty()) {
+        join.extend(schema, &mut vec![None; schema.fits.len()], &mut Vec::new())?;
     }
     let mut next = 0;
     while next < join.queue.len() {
@@ -107,45 +108,48 @@ pub(crate) fn reach(
         // Facts of predicates that no precondition mentions trigger nothing.
         for &(s, k) in triggers.get(predicate).map_or(&[][..], Vec::as_slice) {
             let schema = &schemas[s];
-            let mut binding = vec![None; schema.schema.parameters.len()];
-            if join.bind(schema, &schema.preconditions[k], fact, &mut binding).is_some() {
+            let mut binding = vec![None; schema.fits.len()];
+            if join.bind(schema, &schema.condition.positive[k], fact, &mut binding).is_some() {
                 let mut open: Vec<(usize, bool)> =
-                    (0..schema.preconditions.len()).filter(|&j| j != k).map(|j| (j, j < k)).collect();
+                    (0..schema.condition.positive.len()).filter(|&j| j != k).map(|j| (j, j < k)).collect();
                 join.trigger = Some(fact);
                 join.extend(schema, &mut binding, &mut open)?;
             }
         }
     }
-    Ok(Reached { facts: join.facts, ops: join.ops })
+    Ok(Reached { facts: join.facts, ops: join.ops, axioms: join.axioms })
 }
 
 /// An effect whose condition is not reached yet.
-struct Pending {
-    missing: usize,
-    fact: FactId,
+pub(crate) struct Pending {
+    pub(crate) missing: usize,
+    pub(crate) fact: FactId,
 }
 
-struct Join<'a> {
-    restrictions: &'a Restrictions,
-    budget: &'a Budget,
-    facts: Facts,
-    ops: Vec<RawOp>,
+pub(crate) struct Join<'a> {
+    pub(crate) restrictions: &'a Restrictions,
+    pub(crate) budget: &'a Budget,
+    pub(crate) facts: Facts,
+    /// The predicates that anything changes.
+    pub(crate) fluents: HashSet<u32>,
+    pub(crate) ops: Vec<RawOp>,
+    pub(crate) axioms: Vec<RawOp>,
     /// Reached facts, in the order in which they were reached.
-    queue: Vec<FactId>,
-    by_predicate: HashMap<u32, Vec<FactId>>,
-    by_argument: HashMap<(u32, usize, ObjectId), Vec<FactId>>,
+    pub(crate) queue: Vec<FactId>,
+    pub(crate) by_predicate: HashMap<u32, Vec<FactId>>,
+    pub(crate) by_argument: HashMap<(u32, usize, ObjectId), Vec<FactId>>,
     /// Which pending effects wait for a fact.
-    waiting: HashMap<FactId, Vec<usize>>,
-    pending: Vec<Pending>,
+    pub(crate) waiting: HashMap<FactId, Vec<usize>>,
+    pub(crate) pending: Vec<Pending>,
     /// The fact being joined: preconditions before the one it came through may not match it again.
-    trigger: Option<FactId>,
-    bytes: u64,
+    pub(crate) trigger: Option<FactId>,
+    pub(crate) bytes: u64,
     /// Joins and ground actions so far.
-    work: usize,
+    pub(crate) work: usize,
 }
 
 impl Join<'_> {
-    fn reach_fact(&mut self, fact: FactId) {
+    pub(crate) fn reach_fact(&mut self, fact: FactId) {
         let mut stack = vec![fact];
         while let Some(fact) = stack.pop() {
             if self.facts.is_reached(fact) {
@@ -216,10 +220,7 @@ impl Join<'_> {
         binding: &[Option<ObjectId>],
     ) -> bool {
         schema.fits[parameter][object.index()]
-            && schema.schema.distinct.iter().all(|&(a, b)| {
-                let (a, b) = (a as usize, b as usize);
-                !(a == parameter && binding[b] == Some(object) || b == parameter && binding[a] == Some(object))
-            })
+            && schema.condition.comparisons.iter().all(|c| c.allows_binding(parameter, object, binding))
     }
 
     /// The shortest list of facts that holds every match of a pattern.
@@ -249,11 +250,12 @@ impl Join<'_> {
         binding: &mut Vec<Option<ObjectId>>,
         open: &mut Vec<(usize, bool)>,
     ) -> Result<(), Cut> {
-        let best = (0..open.len()).min_by_key(|&i| self.candidates(&schema.preconditions[open[i].0], binding).len());
+        let best =
+            (0..open.len()).min_by_key(|&i| self.candidates(&schema.condition.positive[open[i].0], binding).len());
         let Some(best) = best else { return self.complete(schema, binding) };
         self.poll()?;
         let (k, older) = open.swap_remove(best);
-        let pattern = &schema.preconditions[k];
+        let pattern = &schema.condition.positive[k];
         for fact in self.candidates(pattern, binding).to_vec() {
             if older && self.trigger == Some(fact) {
                 continue;
@@ -283,56 +285,8 @@ impl Join<'_> {
         Ok(())
     }
 
-    fn emit(&mut self, schema: &Compiled<'_>, binding: &[Option<ObjectId>]) -> Result<(), Cut> {
-        let objects: Box<[ObjectId]> = binding.iter().copied().flatten().collect();
-        let fact = |pattern: &Pattern, facts: &mut Facts| {
-            let args = pattern.args.iter().map(|arg| match *arg {
-                Arg::Object(object) => object,
-                Arg::Param(p) => objects[p],
-            });
-            facts.intern(pattern.predicate, args.collect())
-        };
-        let facts = &mut self.facts;
-        let mut all = |patterns: &[Pattern]| patterns.iter().map(|p| fact(p, facts)).collect::<Vec<_>>();
-        let preconditions = all(&schema.preconditions);
-        let negative = all(&schema.negative);
-        let mut effects: Vec<RawEffect> = schema
-            .effects
-            .iter()
-            .map(|(condition, negative_condition, pattern, adds)| RawEffect {
-                condition: all(condition),
-                negative_condition: all(negative_condition),
-                fact: all(std::slice::from_ref(pattern))[0],
-                adds: *adds,
-            })
-            .collect();
-        effects.sort_unstable();
-        let op = RawOp { schema: schema.index, objects, preconditions, negative, effects };
-        if self.is_banned(schema.schema, &op) {
-            return Ok(());
-        }
-        for effect in op.effects.iter().filter(|effect| effect.adds) {
-            let missing: Vec<FactId> =
-                effect.condition.iter().copied().filter(|&c| !self.facts.is_reached(c)).collect();
-            if missing.is_empty() {
-                self.reach_fact(effect.fact);
-            } else {
-                for &condition in &missing {
-                    self.waiting.entry(condition).or_default().push(self.pending.len());
-                }
-                self.pending.push(Pending { missing: missing.len(), fact: effect.fact });
-            }
-        }
-        self.bytes += op.bytes();
-        self.ops.push(op);
-        if self.budget.bytes.is_some_and(|limit| self.bytes > limit) {
-            return Err(Cut::OutOfMemory);
-        }
-        self.poll()
-    }
-
     /// Now and then asks whether to stop.
-    fn poll(&mut self) -> Result<(), Cut> {
+    pub(crate) fn poll(&mut self) -> Result<(), Cut> {
         self.work += 1;
         if self.work.is_multiple_of(POLL_INTERVAL)
             && let Some(stop) = self.budget.stopped()
@@ -341,33 +295,11 @@ impl Join<'_> {
         }
         Ok(())
     }
-
-    fn is_banned(&self, schema: &ActionSchema, op: &RawOp) -> bool {
-        if self.restrictions.banned.is_empty() {
-            return false;
-        }
-        let objects: Vec<Symbol> = op.objects.iter().map(|&o| self.facts.name(o).clone()).collect();
-        let args = || schema.call.args.iter().map(|term| term.object(&objects));
-        let conditional = schema.effects.iter().any(|effect| !effect.condition.is_empty());
-        self.restrictions.banned.iter().any(|ban| {
-            let same_call = ban.call.name == schema.call.name && args().eq(ban.call.args.iter().cloned());
-            same_call && if conditional { ban.action == schema.name } else { self.effect_is(op, ban) }
-        })
-    }
-
-    /// Whether the unconditional effect of a ground action is the one that was banned.
-    fn effect_is(&self, op: &RawOp, ban: &Ban) -> bool {
-        let atoms = |adds: bool| -> BTreeSet<GroundAtom> {
-            op.effects.iter().filter(|e| e.adds == adds).map(|e| self.facts.atom(e.fact)).collect()
-        };
-        let adds = atoms(true);
-        adds.iter().eq(&ban.adds) && atoms(false).difference(&adds).eq(&ban.deletes)
-    }
 }
 
 impl RawOp {
     /// Bytes it holds, roughly.
-    fn bytes(&self) -> u64 {
+    pub(crate) fn bytes(&self) -> u64 {
         let lists = self.objects.len() + self.preconditions.len() + self.negative.len() + 12 * self.effects.len();
         (lists * 4 + std::mem::size_of::<Self>()) as u64
     }

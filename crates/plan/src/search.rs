@@ -187,7 +187,7 @@ impl Search {
             for &op_id in &ops {
                 let op = task.op(op_id);
                 after.copy_from_slice(&state);
-                apply(op, &state, &mut after);
+                apply(task, op, &state, &mut after);
                 let h = self.heuristic.successor(&parent_memory, op, &after, &mut memory);
                 self.report.evaluations += 1;
                 let actions = node.actions.wrapping_add(spread(op_id.index() as u64 + 1));

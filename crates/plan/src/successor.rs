@@ -39,9 +39,9 @@ pub(crate) fn initial(task: &GroundTask) -> Vec<u64> {
     state
 }
 
-/// Whether every goal atom holds.
+/// Whether every goal atom holds, and none that must not.
 pub(crate) fn is_goal(task: &GroundTask, state: &[u64]) -> bool {
-    all_hold(state, task.goal())
+    all_hold(state, task.goal()) && none_holds(state, task.negative_goal())
 }
 
 /// The actions applicable in a state, in the task's order.
@@ -55,7 +55,12 @@ pub(crate) fn applicable(task: &GroundTask, state: &[u64], into: &mut Vec<OpId>)
 }
 
 /// Applies an action; `after` starts as a copy of `before`.
-pub(crate) fn apply(op: &Op, before: &[u64], after: &mut [u64]) {
+pub(crate) fn apply(task: &GroundTask, op: &Op, before: &[u64], after: &mut [u64]) {
+    change(op, before, after);
+    task.axioms().close(after);
+}
+
+fn change(op: &Op, before: &[u64], after: &mut [u64]) {
     for &fact in &op.deletes {
         set(after, fact, false);
     }

@@ -124,7 +124,7 @@ impl TaskFile {
         let scene = self.state.as_ref().ok_or(TaskError::NoState)?;
         let init = parser.parse(scene).map_err(TaskError::State)?;
         check_goal(&self.goal, &init, predicates)?;
-        Ok(Task { init, goal: self.goal.clone() })
+        Ok(Task::new(init, self.goal.clone()))
     }
 
     /// The task as JSON text, ending in a line feed.

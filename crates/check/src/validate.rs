@@ -1,0 +1,205 @@
+//! Plans as files state them: names and objects, without saying which case of an action is meant.
+//!
+//! A PDDL action with a disjunctive or existential precondition is several schemas of a model, whose parameters may
+//! be more than the action's. A line of a plan can be executed if one of them can, with whatever objects for the other
+//! parameters; all have the same effect.
+
+use typelift_model::{
+    ActionModel, ActionSchema, GroundAction, GroundAtom, GroundCall, InstantiateError, Literal, Plan, State, Symbol,
+    Task, Term,
+};
+
+use crate::{Invalid, successor};
+
+/// What a valid plan comes to.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Valid {
+    /// The plan, with the case of each action that is used.
+    pub plan: Plan,
+    /// The final state.
+    pub state: State,
+}
+
+/// A schema, objects for its parameters, and the ground action they make.
+type Choice<'a> = (&'a ActionSchema, GroundAction);
+
+/// Replays a plan from the task's initial state. Its lines name actions by the model's names, as
+/// [`ActionSchema::signature`] says.
+///
+/// # Errors
+/// The steps that could be taken, and [`Invalid`], which names the first that cannot be, or the first part of the goal
+/// that is missed.
+pub fn validate(model: &ActionModel, task: &Task, lines: &[GroundCall]) -> Result<Valid, (Plan, Invalid)> {
+    let mut state = model.with_derived(&task.init);
+    let mut plan = Plan::default();
+    for (i, line) in lines.iter().enumerate() {
+        let step = i + 1;
+        let taken = choose(model, &state, step, line).and_then(|(schema, action)| {
+            let no_cost = || InstantiateError::NoCost { action: schema.name.clone() };
+            let cost = schema.cost.of(&action.objects, &task.values);
+            let cost = cost.ok_or_else(|| Invalid::Objects { step, error: no_cost() })?;
+            Ok((schema.step(action.objects.clone(), cost), action))
+        });
+        match taken {
+            Ok((step, action)) => {
+                state = successor(model, &action, &state);
+                plan.steps.push(step);
+            }
+            Err(invalid) => return Err((plan, invalid)),
+        }
+    }
+    match task.goal_literals().find(|&(atom, positive)| state.holds(atom) != positive) {
+        Some((atom, positive)) => Err((plan, Invalid::Goal { atom: atom.clone(), positive })),
+        None => Ok(Valid { plan, state }),
+    }
+}
+
+/// The first case of the action that can be used.
+fn choose<'a>(model: &'a ActionModel, state: &State, step: usize, line: &GroundCall) -> Result<Choice<'a>, Invalid> {
+    let mut failures: Vec<Invalid> = Vec::new();
+    for schema in model.actions.iter().filter(|schema| schema.signature().name == line.name) {
+        match choose_objects(model, state, step, schema, line) {
+            Ok(action) => return Ok((schema, action)),
+            Err(invalid) => failures.push(invalid),
+        }
+    }
+    match failures.len() {
+        0 => Err(Invalid::UnknownAction { step, action: line.name.clone() }),
+        1 => Err(failures.remove(0)),
+        _ => {
+            let mut reasons: Vec<String> = failures.iter().map(reason).collect();
+            reasons.sort();
+            reasons.dedup();
+            Err(Invalid::NoCase { step, action: line.name.clone(), reasons })
+        }
+    }
+}
+
+/// What is missing, without the step.
+fn reason(invalid: &Invalid) -> String {
+    match invalid {
+        Invalid::Precondition { atom, positive, .. } => format!("{}{atom}", if *positive { "" } else { "not " }),
+        Invalid::Objects { error, .. } => error.to_string(),
+        Invalid::NoCase { reasons, .. } => reasons.join("; "),
+        other => other.to_string(),
+    }
+}
+
+/// Objects for all parameters of a schema with which it can be used as the line says.
+fn choose_objects(
+    model: &ActionModel,
+    state: &State,
+    step: usize,
+    schema: &ActionSchema,
+    line: &GroundCall,
+) -> Result<GroundAction, Invalid> {
+    let signature = schema.signature();
+    let (expected, found) = (signature.args.len(), line.args.len());
+    if expected != found {
+        let error = InstantiateError::Arity { action: line.name.clone(), expected, found };
+        return Err(Invalid::Objects { step, error });
+    }
+    let mut binding: Vec<Option<Symbol>> = vec![None; schema.parameters.len()];
+    for (term, object) in signature.args.iter().zip(&line.args) {
+        let known = match term {
+            Term::Const(name) => Some(name.clone()),
+            Term::Param(p) => binding[*p as usize].replace(object.clone()),
+        };
+        if let Some(other) = known.filter(|other| other != object) {
+            let reasons = vec![format!("{object} would have to be {other}")];
+            return Err(Invalid::NoCase { step, action: line.name.clone(), reasons });
+        }
+    }
+    let open: Vec<usize> = (0..binding.len()).filter(|&p| binding[p].is_none()).collect();
+    if let Some(objects) = binding.iter().cloned().collect::<Option<Vec<Symbol>>>() {
+        return usable(model, state, step, schema, &objects);
+    }
+    let choice = Search { model, state, schema, open: &open };
+    match choice.complete(&mut binding, 0) {
+        Some(objects) => usable(model, state, step, schema, &objects),
+        None => {
+            let names: Vec<String> = open.iter().map(|&p| format!("?{}", schema.parameters[p].name)).collect();
+            let unmet = choice.decided(&binding).find(|literal| !choice.holds(literal, &binding));
+            let reason = match unmet {
+                Some(literal) => choice.written(literal, &binding),
+                None => format!("no choice of {} satisfies its precondition", names.join(", ")),
+            };
+            Err(Invalid::NoCase { step, action: line.name.clone(), reasons: vec![reason] })
+        }
+    }
+}
+
+fn usable(
+    model: &ActionModel,
+    state: &State,
+    step: usize,
+    schema: &ActionSchema,
+    objects: &[Symbol],
+) -> Result<GroundAction, Invalid> {
+    let action =
+        schema.instantiate(objects, state, &model.hierarchy).map_err(|error| Invalid::Objects { step, error })?;
+    let unmet = action.unmet(state).next().cloned();
+    match unmet {
+        Some((atom, positive)) => Err(Invalid::Precondition { step, action: schema.name.clone(), atom, positive }),
+        None => Ok(action),
+    }
+}
+
+/// Looks for objects for the parameters that a plan does not name.
+struct Search<'a> {
+    model: &'a ActionModel,
+    state: &'a State,
+    schema: &'a ActionSchema,
+    open: &'a [usize],
+}
+
+type Binding = [Option<Symbol>];
+
+impl Search<'_> {
+    /// The first completion of the binding, from the open parameter at `next` on, that satisfies the precondition.
+    fn complete(&self, binding: &mut Vec<Option<Symbol>>, next: usize) -> Option<Vec<Symbol>> {
+        if !self.decided(binding).all(|literal| self.holds(literal, binding)) {
+            return None;
+        }
+        let Some(&parameter) = self.open.get(next) else { return binding.iter().cloned().collect() };
+        for (object, ty) in &self.state.objects {
+            if !self.model.hierarchy.is_a(*ty, self.schema.parameters[parameter].ty) {
+                continue;
+            }
+            binding[parameter] = Some(object.clone());
+            let differ = |&(a, b): &(u32, u32)| {
+                let (a, b) = (&binding[a as usize], &binding[b as usize]);
+                a.is_none() || a != b
+            };
+            if self.schema.distinct.iter().all(differ)
+                && let Some(objects) = self.complete(binding, next + 1)
+            {
+                return Some(objects);
+            }
+        }
+        binding[parameter] = None;
+        None
+    }
+
+    /// The preconditions whose parameters are all bound.
+    fn decided<'b>(&'b self, binding: &'b Binding) -> impl Iterator<Item = &'b Literal> {
+        let bound = |literal: &&Literal| literal.atom.params().all(|p| binding[p as usize].is_some());
+        self.schema.preconditions.iter().filter(bound)
+    }
+
+    fn holds(&self, literal: &Literal, binding: &Binding) -> bool {
+        self.state.holds(&ground(literal, binding)) == literal.positive
+    }
+
+    fn written(&self, literal: &Literal, binding: &Binding) -> String {
+        format!("{}{}", if literal.positive { "" } else { "not " }, ground(literal, binding))
+    }
+}
+
+/// The atom of a literal whose parameters are bound.
+fn ground(literal: &Literal, binding: &Binding) -> GroundAtom {
+    literal.atom.map(|term| match term {
+        Term::Const(name) => name.clone(),
+        Term::Param(p) => binding[*p as usize].clone().unwrap_or_default(),
+    })
+}

@@ -1,0 +1,193 @@
+//! `typelift pddl check`.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+use typelift::model::Symbol;
+use typelift::pddl::{
+    Definition, DefinitionKind, Document, Domain, PddlError, Problem, Trajectory, read_problem, read_trajectory,
+    required_by_domain, required_by_problem, undeclared_requirements,
+};
+use typelift::world::{FileError, read_text};
+
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::pddl_domains::Domains;
+use crate::style::{BAD, WARNING, count};
+
+/// What a file is, as far as its beginning tells.
+#[derive(Debug, Clone)]
+enum Kind {
+    Domain,
+    /// With the name of the domain, if it is there.
+    Problem(Option<String>),
+    Trajectory,
+}
+
+/// What is right about a file.
+#[derive(Debug, Serialize)]
+struct Content {
+    kind: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    name: Option<Symbol>,
+    /// How many of what, in the order in which they are told.
+    counts: Vec<(&'static str, u64)>,
+    /// Requirements that are used but not declared.
+    undeclared: Vec<&'static str>,
+}
+
+/// What is printed of a file with `--json`.
+#[derive(Debug, Serialize)]
+struct Report {
+    file: String,
+    #[serde(flatten)]
+    content: Option<Content>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error: Option<Problematic>,
+}
+
+#[derive(Debug, Serialize)]
+struct Problematic {
+    message: String,
+    line: Option<u32>,
+    column: Option<u32>,
+    hint: Option<String>,
+    unsupported: bool,
+}
+
+pub(crate) fn check(files: &[PathBuf], json: bool, quiet: bool) -> Result<Exit, Failure> {
+    let mut domains = Domains::default();
+    let kinds: Vec<Result<Kind, FileError>> = files.iter().map(|file| kind_of(file, &mut domains)).collect();
+    let mut out = anstream::stdout().lock();
+    let (mut wrong, mut unsupported) = (false, false);
+    for (file, kind) in files.iter().zip(kinds) {
+        let content = kind.and_then(|kind| content_of(file, kind, &mut domains));
+        if let Err(error) = &content {
+            wrong |= !error.unsupported;
+            unsupported |= error.unsupported;
+        }
+        if json {
+            let line = serde_json::to_string(&report(file, content)).unwrap_or_default();
+            writeln!(out, "{line}")?;
+            continue;
+        }
+        let shown = file.display();
+        match content {
+            Ok(content) => {
+                writeln!(out, "{shown}: {}", summary(&content))?;
+                if !content.undeclared.is_empty() && !quiet {
+                    let names = content.undeclared.join(" ");
+                    anstream::eprintln!("{WARNING}warning{WARNING:#}: {shown}: used, but not required: {names}");
+                }
+            }
+            Err(error) => {
+                let what = if error.unsupported { "not supported" } else { "wrong" };
+                writeln!(out, "{shown}: {BAD}{what}{BAD:#}")?;
+                Failure::from(error).report();
+            }
+        }
+    }
+    Ok(match (wrong, unsupported) {
+        (true, _) => Exit::BadInput,
+        (false, true) => Exit::Unsupported,
+        (false, false) => Exit::Success,
+    })
+}
+
+/// Looks at how a file begins; a domain is given to the problems.
+fn kind_of(file: &Path, domains: &mut Domains) -> Result<Kind, FileError> {
+    let text = read_text(file)?;
+    let mut kind = || -> Result<Kind, PddlError> {
+        let document = Document::read(&text)?;
+        let root = document.only_root()?;
+        if root.has_head(":trajectory") || root.children().next().is_some_and(|first| first.is_list()) {
+            return Ok(Kind::Trajectory);
+        }
+        let Some(definition) = Definition::read(root)? else {
+            let error = root.error("this is neither a domain nor a problem");
+            return Err(error.with_hint("They begin with `(define (domain NAME)` or `(define (problem NAME)`."));
+        };
+        Ok(match definition.kind {
+            DefinitionKind::Domain => {
+                domains.give(file, definition.name);
+                Kind::Domain
+            }
+            DefinitionKind::Problem => Kind::Problem(definition.domain_name().ok().map(|name| name.text().to_owned())),
+        })
+    };
+    kind().map_err(|error| FileError::from_pddl(file, &text, error))
+}
+
+fn content_of(file: &Path, kind: Kind, domains: &mut Domains) -> Result<Content, FileError> {
+    match kind {
+        Kind::Domain => domains.read(file).map(|domain| domain_content(&domain)),
+        Kind::Problem(name) => {
+            let domain = name.map(|name| domains.of_problem(file, &name)).transpose()?.unwrap_or_default();
+            let text = read_text(file)?;
+            let problem = read_problem(&text, &domain).map_err(|error| FileError::from_pddl(file, &text, error))?;
+            Ok(problem_content(&problem, &domain))
+        }
+        Kind::Trajectory => {
+            let text = read_text(file)?;
+            let trajectory = read_trajectory(&text).map_err(|error| FileError::from_pddl(file, &text, error))?;
+            Ok(trajectory_content(&trajectory))
+        }
+    }
+}
+
+fn domain_content(domain: &Domain) -> Content {
+    let counts = vec![
+        ("action", domain.actions.len()),
+        ("predicate", domain.predicates.len()),
+        ("type", domain.types.len()),
+        ("constant", domain.constants.len()),
+        ("function", domain.functions.len()),
+        ("derivation", domain.derived.len()),
+    ];
+    let undeclared = undeclared_requirements(&required_by_domain(domain), &domain.requirements);
+    content("domain", Some(&domain.name), counts, undeclared)
+}
+
+fn problem_content(problem: &Problem, domain: &Domain) -> Content {
+    let counts = vec![("object", problem.objects.len()), ("initial atom", problem.init.len())];
+    let declared = [&*domain.requirements, &problem.requirements].concat();
+    // What the domain lacks is said of the domain.
+    let lacking = undeclared_requirements(&required_by_domain(domain), &domain.requirements);
+    let mut undeclared = undeclared_requirements(&required_by_problem(problem), &declared);
+    undeclared.retain(|name| !lacking.contains(name));
+    content("problem", Some(&problem.name), counts, undeclared)
+}
+
+fn trajectory_content(trajectory: &Trajectory) -> Content {
+    let counts = vec![("state", trajectory.states.len()), ("action", trajectory.actions.len())];
+    content("trajectory", None, counts, Vec::new())
+}
+
+fn content(
+    kind: &'static str,
+    name: Option<&Symbol>,
+    counts: Vec<(&'static str, usize)>,
+    undeclared: Vec<&'static str>,
+) -> Content {
+    let counts = counts.into_iter().map(|(what, n)| (what, n as u64)).collect();
+    Content { kind, name: name.cloned(), counts, undeclared }
+}
+
+/// `domain blocks, 4 actions, 5 predicates, 0 types`; of what comes after, what there is.
+fn summary(content: &Content) -> String {
+    let name = content.name.iter().map(|name| format!(" {name}"));
+    let told = content.counts.iter().enumerate().filter(|(i, (_, n))| *i < 3 || *n > 0);
+    let counts = told.map(|(_, (what, n))| format!(", {}", count(*n, what)));
+    std::iter::once(content.kind.to_owned()).chain(name).chain(counts).collect()
+}
+
+fn report(file: &Path, content: Result<Content, FileError>) -> Report {
+    let file = file.display().to_string();
+    match content {
+        Ok(content) => Report { file, content: Some(content), error: None },
+        Err(FileError { what, line, column, hint, unsupported, .. }) => {
+            Report { file, content: None, error: Some(Problematic { message: what, line, column, hint, unsupported }) }
+        }
+    }
+}

@@ -1,0 +1,94 @@
+//! Finding the domain that a problem belongs to.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+
+use typelift::pddl::{Definition, DefinitionKind, Document, Domain, read_domain};
+use typelift::world::{FileError, read_text};
+
+/// Domains, each read once.
+#[derive(Debug, Default)]
+pub(crate) struct Domains {
+    /// The domains that were named by the user, with their names in lower case.
+    given: Vec<(PathBuf, String)>,
+    read: BTreeMap<PathBuf, Result<Rc<Domain>, FileError>>,
+    /// The domains of each folder that was searched.
+    folders: BTreeMap<PathBuf, Vec<(PathBuf, String)>>,
+}
+
+impl Domains {
+    /// Adds a domain that problems may belong to.
+    pub(crate) fn give(&mut self, path: &Path, name: &str) {
+        self.given.push((path.to_owned(), name.to_ascii_lowercase()));
+    }
+
+    /// Reads a domain.
+    pub(crate) fn read(&mut self, path: &Path) -> Result<Rc<Domain>, FileError> {
+        let read = || {
+            let text = read_text(path)?;
+            read_domain(&text).map(Rc::new).map_err(|error| FileError::from_pddl(path, &text, error))
+        };
+        self.read.entry(path.to_owned()).or_insert_with(read).clone()
+    }
+
+    /// The domain of a problem that says it belongs to `name`: one that was given, or else `domain.pddl` beside the
+    /// problem, or else the only one of that name in its folder or in the folder above.
+    pub(crate) fn of_problem(&mut self, problem: &Path, name: &str) -> Result<Rc<Domain>, FileError> {
+        let path = self.find(problem, &name.to_ascii_lowercase())?;
+        self.read(&path).map_err(|error| FileError {
+            unsupported: error.unsupported,
+            ..FileError::new(problem, format!("its domain cannot be read: {error}"))
+        })
+    }
+
+    fn find(&mut self, problem: &Path, name: &str) -> Result<PathBuf, FileError> {
+        let named = self.given.iter().filter(|(_, given)| given == name);
+        if let Some((path, _)) = named.max_by_key(|(path, _)| path.parent() == problem.parent()) {
+            return Ok(path.clone());
+        }
+        let beside = problem.with_file_name("domain.pddl");
+        if beside.is_file() {
+            return Ok(beside);
+        }
+        let above = problem.parent().map(|folder| folder.join(".."));
+        for folder in problem.parent().map(Path::to_owned).into_iter().chain(above) {
+            let mut named = self.in_folder(&folder).iter().filter(|(_, other)| other == name);
+            match (named.next(), named.next()) {
+                (None, _) => {}
+                (Some((path, _)), None) => return Ok(path.clone()),
+                (Some((one, _)), Some((other, _))) => {
+                    let what = format!(
+                        "there are several domains `{name}`, such as {} and {}",
+                        one.display(),
+                        other.display()
+                    );
+                    return Err(FileError::new(problem, what).with_hint("Name the right one as well.".to_owned()));
+                }
+            }
+        }
+        let error = FileError::new(problem, format!("its domain `{name}` is not there"));
+        Err(error.with_hint("Name the domain's file as well.".to_owned()))
+    }
+
+    /// The domains in a folder, in the order of the files' names.
+    fn in_folder(&mut self, folder: &Path) -> &[(PathBuf, String)] {
+        self.folders.entry(folder.to_owned()).or_insert_with(|| {
+            let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+            let entries = folder.read_dir().into_iter().flatten().flatten().map(|entry| entry.path());
+            let mut files: Vec<PathBuf> =
+                entries.filter(|path| path.extension().is_some_and(|ending| ending == "pddl")).collect();
+            files.sort();
+            let named = files.into_iter().filter_map(|path| domain_name(&path).map(|name| (path, name)));
+            named.collect()
+        })
+    }
+}
+
+/// The name of the domain in a file, in lower case, if there is one.
+fn domain_name(path: &Path) -> Option<String> {
+    let text = read_text(path).ok()?;
+    let document = Document::read(&text).ok()?;
+    let definition = Definition::only(&document, DefinitionKind::Domain).ok()?;
+    Some(definition.name.to_ascii_lowercase())
+}
