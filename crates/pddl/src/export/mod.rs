@@ -13,7 +13,6 @@ mod domain;
 mod names;
 mod note;
 mod problem;
-mod requirements;
 mod strips;
 
 use std::borrow::Cow;
@@ -21,6 +20,7 @@ use std::borrow::Cow;
 use thiserror::Error;
 use typelift_model::{ActionModel, NameCollision, Symbol, Task};
 
+use crate::required::{required_by_both, required_by_domain};
 use crate::{Domain, Problem};
 
 pub use names::{ExportNames, UnknownName};
@@ -105,7 +105,9 @@ pub fn export(model: &ActionModel, task: Option<&Task>, options: &ExportOptions)
     let writer = Writer { model, task, names: &names, types, options };
     let mut domain = writer.domain(notes);
     let problem = task.map(|task| writer.problem(task, &domain));
-    domain.requirements = requirements::requirements(&domain, problem.as_ref());
+    // Planners look for what the problem uses in the domain too.
+    let required = problem.as_ref().map_or_else(|| required_by_domain(&domain), |p| required_by_both(&domain, p));
+    domain.requirements = required.into_iter().map(Symbol::new).collect();
     Ok(Exported { domain, problem, names })
 }
 
