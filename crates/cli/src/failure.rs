@@ -5,6 +5,7 @@ use std::io;
 
 use typelift::agent::{ProposeError, RunError};
 use typelift::model::{ModelFileError, NameCollision, Stop, Symbol, nearest};
+use typelift::pddl::ExportError;
 use typelift::plan::Cut;
 use typelift::world::{FileError, WorldError};
 
@@ -71,6 +72,21 @@ impl From<NameCollision> for Failure {
     }
 }
 
+impl From<ExportError> for Failure {
+    fn from(error: ExportError) -> Self {
+        match error {
+            ExportError::Name(collision) => collision.into(),
+            _ => Self::new(Exit::Unsupported, error).with_hint("--level adl needs none of this."),
+        }
+    }
+}
+
+impl From<Cut> for Failure {
+    fn from(cut: Cut) -> Self {
+        Self::new(cut_exit(cut), cut)
+    }
+}
+
 impl From<ModelFileError> for Failure {
     fn from(error: ModelFileError) -> Self {
         match error {
@@ -90,7 +106,7 @@ impl From<ModelFileError> for Failure {
 impl From<ProposeError> for Failure {
     fn from(error: ProposeError) -> Self {
         match error {
-            ProposeError::Cut(cut) => Self::new(cut_exit(cut), cut),
+            ProposeError::Cut(cut) => cut.into(),
             ProposeError::Invalid { .. } => Self::new(Exit::Internal, format!("{error}; this is a defect of typelift")),
         }
     }

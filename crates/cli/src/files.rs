@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use typelift::model::{ActionModel, ModelFileError, Task};
+use typelift::model::{ActionModel, ModelFileError, Symbol, Task};
 use typelift::world::{DomainFile, FileError, Parser, TaskFile, is_pddl, read_task, read_text, read_types};
 
 use crate::failure::{Failure, NOT_AS_WRITTEN};
@@ -115,6 +115,13 @@ fn read_start(path: &Path) -> Result<String, Failure> {
 /// A task's name, for people: its file's, without folders and ending.
 pub(crate) fn task_name(path: &Path) -> String {
     path.file_stem().map_or_else(|| path.display().to_string(), |stem| stem.to_string_lossy().into_owned())
+}
+
+/// A name for a domain: the model file's, as far as PDDL allows it.
+pub(crate) fn domain_name(path: &Path) -> Symbol {
+    let stem = path.file_stem().map(|stem| stem.to_string_lossy().to_lowercase()).unwrap_or_default();
+    let name: String = stem.chars().map(|c| if c.is_ascii_alphanumeric() || c == '-' { c } else { '-' }).collect();
+    Symbol::from(if name.starts_with(|c: char| c.is_ascii_alphabetic()) { name } else { format!("model-{name}") })
 }
 
 /// Refuses to write over what is read.

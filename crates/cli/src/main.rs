@@ -6,6 +6,7 @@
 mod account;
 mod demo;
 mod exit;
+mod export;
 mod failure;
 mod files;
 mod goal_check;
@@ -21,6 +22,7 @@ mod plan_text;
 mod run;
 mod show;
 mod style;
+mod validate;
 
 use std::process::ExitCode;
 
@@ -48,7 +50,9 @@ enum Command {
     Learn(learn::Learn),
     Show(show::Show),
     Plan(plan::Plan),
+    Export(export::Export),
     Run(run::Run),
+    Validate(validate::Validate),
     Pddl(pddl::Pddl),
     Kitchen(kitchen::Kitchen),
 }
@@ -69,7 +73,9 @@ fn main() -> ExitCode {
         Command::Learn(learn) => learn.run(quiet),
         Command::Show(show) => show.run(),
         Command::Plan(plan) => plan.run(clock, quiet),
+        Command::Export(export) => export.run(),
         Command::Run(run) => run.run(clock, quiet),
+        Command::Validate(validate) => validate.run(),
         Command::Pddl(pddl) => pddl.run(quiet),
         Command::Kitchen(kitchen) => kitchen.run(quiet),
     };

@@ -1,8 +1,12 @@
 //! Plans as text: for people, and as the plan files of the planning competitions.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use typelift::model::{ActionModel, Hierarchy, NameCollision, PddlNames, Plan, State, Step, describe_replacements};
+use typelift::model::{
+    ActionModel, GroundCall, Hierarchy, NameCollision, PddlNames, Plan, State, Step, Symbol, describe_replacements,
+};
+use typelift::pddl::PlanLine;
 
 use crate::style::{IMAGINED, count};
 
@@ -54,4 +58,24 @@ pub(crate) fn plan_file(plan: &Plan, model: &ActionModel, state: &State) -> Resu
     let unit = if plan.steps.iter().all(|step| step.cost == 1) { "unit cost" } else { "general cost" };
     let _ = writeln!(text, "; cost = {} ({unit})", plan.cost());
     Ok(text)
+}
+
+/// What the lines of a plan file say in the model's names. A name that the model does not have stands for itself:
+/// whoever replays the plan says so.
+pub(crate) fn calls_of_plan(
+    lines: &[PlanLine],
+    model: &ActionModel,
+    state: &State,
+) -> Result<Vec<GroundCall>, NameCollision> {
+    let names = model.pddl_names()?;
+    let objects = PddlNames::fold("object", state.objects.keys())?;
+    let mut actions: BTreeMap<&Symbol, Symbol> = BTreeMap::new();
+    for schema in &model.actions {
+        actions.entry(names.in_plans(schema)).or_insert_with(|| schema.signature().name);
+    }
+    let call = |line: &PlanLine| GroundCall {
+        name: actions.get(&line.name).unwrap_or(&line.name).clone(),
+        args: line.args.iter().map(|arg| objects.name(arg.as_str()).unwrap_or(arg).clone()).collect(),
+    };
+    Ok(lines.iter().map(call).collect())
 }

@@ -2,16 +2,16 @@
 
 use std::collections::BTreeMap;
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use typelift::model::{
     ActionModel, ActionSchema, Literal, Provenance, Source, Symbol, Term, describe_replacements, schema_name,
 };
-use typelift::pddl::write_domain;
+use typelift::pddl::{ExportOptions, Level, export};
 
 use crate::exit::Exit;
 use crate::failure::{Failure, or_one_of};
-use crate::files::read_model;
+use crate::files::{domain_name, read_model};
 use crate::style::{DIM, HEAD, count, wrapped};
 
 /// Show what a model holds, and what each action rests on
@@ -36,7 +36,9 @@ impl Show {
         let model = read_model(&self.model, None)?;
         let mut out = anstream::stdout().lock();
         if self.pddl {
-            write!(out, "{}", write_domain(&model, &domain_name(&self.model))?)?;
+            let domain = domain_name(&self.model);
+            let options = ExportOptions { domain, problem: Symbol::default(), level: Level::Adl };
+            write!(out, "{}", export(&model, None, &options)?.domain)?;
             return Ok(Exit::Success);
         }
         match &self.action {
@@ -65,13 +67,6 @@ impl Show {
         }
         Ok(Exit::Success)
     }
-}
-
-/// A name for the domain: the model file's, as far as PDDL allows it.
-fn domain_name(path: &Path) -> String {
-    let stem = path.file_stem().map(|stem| stem.to_string_lossy().to_lowercase()).unwrap_or_default();
-    let name: String = stem.chars().map(|c| if c.is_ascii_alphanumeric() || c == '-' { c } else { '-' }).collect();
-    if name.starts_with(|c: char| c.is_ascii_alphabetic()) { name } else { format!("model-{name}") }
 }
 
 /// An action in words: parameters, what the environment is told, preconditions, effects, evidence.

@@ -18,14 +18,12 @@ mod definition;
 mod domain_reader;
 mod effect_reader;
 mod error;
+mod export;
 mod format;
 mod formula_reader;
-<<<<<<< HEAD
 #[cfg(test)]
 mod generate;
-=======
 mod layout_tokens;
->>>>>>> a
 mod names;
 mod objects;
 mod plan_file;
@@ -41,12 +39,12 @@ mod trajectory;
 mod typed_list;
 mod types;
 mod vocabulary;
-mod writer;
 
 pub use compile::{CompileError, CompilePart, compile_domain, compile_problem};
 pub use definition::{Definition, DefinitionKind};
 pub use domain_reader::read_domain;
 pub use error::{PddlError, Related};
+pub use export::{ExportError, ExportNames, ExportOptions, Exported, Level, MOST_FACTS, UnknownName, export};
 pub use format::format;
 pub use objects::{Declarations, ObjectDeclaration, read_objects};
 pub use plan_file::{PlanLine, read_plan};
@@ -60,4 +58,3 @@ pub use syntax::{
 pub use trajectory::{Trajectory, TrajectoryAction, TrajectoryState, read_trajectory};
 pub use typed_list::{TypedName, read_typed_list};
 pub use types::{TypeEdge, hierarchy_from_types, locate_hierarchy_error, read_hierarchy, read_types};
-pub use writer::write_domain;

@@ -57,6 +57,12 @@ pub fn required_by_problem(problem: &Problem) -> Vec<&'static str> {
     used.in_order()
 }
 
+/// The requirements that a domain and a problem for it use together, in the usual order.
+pub(crate) fn required_by_both(domain: &Domain, problem: &Problem) -> Vec<&'static str> {
+    let used = [required_by_domain(domain), required_by_problem(problem)].concat();
+    Used(used).in_order()
+}
+
 /// Those of `used` that are not among `declared` and not brought by them. Where nothing is declared, `:strips` is.
 pub fn undeclared_requirements(used: &[&'static str], declared: &[Symbol]) -> Vec<&'static str> {
     let is_declared = |name: &str| declared.iter().any(|other| other == name);

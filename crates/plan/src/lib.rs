@@ -21,6 +21,7 @@ mod pattern;
 mod planner;
 mod reach;
 mod restrict;
+mod restricted;
 mod search;
 mod successor;
 

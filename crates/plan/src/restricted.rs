@@ -1,0 +1,134 @@
+//! Restrictions as literals: a model and a task that say by themselves what may not be used, for planners that know
+//! nothing of restrictions.
+//!
+//! What is restricted becomes a static predicate that must not hold: `excluded-from-CALL` of every object that may not
+//! take part in actions of this call, `banned-SCHEMA` of the parameters of every banned instance of a schema.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use typelift_model::{ActionModel, ActionSchema, Atom, GroundAtom, LiftedAtom, Literal, Symbol, Task, Term};
+
+use crate::{Ban, Restrictions};
+
+impl Restrictions {
+    /// A model and a task without restrictions that allow exactly what this model and this task allow with these.
+    pub fn compiled_into(&self, model: &ActionModel, task: &Task) -> (ActionModel, Task) {
+        let mut compiled = Compiled { model: model.clone(), task: task.clone() };
+        compiled.exclude(self);
+        compiled.ban(self, model, task);
+        (compiled.model, compiled.task)
+    }
+}
+
+struct Compiled {
+    model: ActionModel,
+    task: Task,
+}
+
+impl Compiled {
+    fn exclude(&mut self, restrictions: &Restrictions) {
+        let calls: BTreeSet<Symbol> = self.model.actions.iter().map(|action| action.call.name.clone()).collect();
+        for call in calls {
+            let objects = self.task.init.objects.keys().filter(|object| !restrictions.allows(object, &call));
+            let tuples: Vec<Vec<Symbol>> = objects.map(|object| vec![object.clone()]).collect();
+            if tuples.is_empty() {
+                continue;
+            }
+            let predicate = self.static_predicate(&format!("excluded-from-{call}"), 1, tuples);
+            for action in self.model.actions.iter_mut().filter(|action| action.call.name == call) {
+                let parameters = 0..action.parameters.len() as u32;
+                let excluded = |index| LiftedAtom::new(predicate.clone(), vec![Term::Param(index)]);
+                forbid(action, parameters.map(excluded));
+            }
+        }
+    }
+
+    fn ban(&mut self, restrictions: &Restrictions, model: &ActionModel, task: &Task) {
+        for (index, schema) in model.actions.iter().enumerate() {
+            let mut banned = BTreeSet::new();
+            for ban in &restrictions.banned {
+                banned.extend(instances(ban, schema, model, task));
+            }
+            if banned.is_empty() {
+                continue;
+            }
+            let arity = schema.parameters.len();
+            let predicate = self.static_predicate(&format!("banned-{}", schema.name), arity, banned);
+            let parameters = (0..arity as u32).map(Term::Param).collect();
+            forbid(&mut self.model.actions[index], [LiftedAtom::new(predicate, parameters)]);
+        }
+    }
+
+    /// Adds a predicate that holds of these tuples and never changes; its name is numbered if it is in use.
+    fn static_predicate(&mut self, base: &str, arity: usize, tuples: impl IntoIterator<Item = Vec<Symbol>>) -> Symbol {
+        let mut name = Symbol::new(base);
+        for number in 2.. {
+            let of_task = |name: &Symbol| self.task.init.atoms.iter().any(|atom| atom.predicate == *name);
+            if !self.model.predicates.contains_key(&name) && !of_task(&name) {
+                break;
+            }
+            name = Symbol::from(format!("{base}-{number}"));
+        }
+        self.model.predicates.insert(name.clone(), arity);
+        self.task.init.atoms.extend(tuples.into_iter().map(|tuple| Atom::new(name.clone(), tuple)));
+        name
+    }
+}
+
+/// Adds the negations of these atoms to the preconditions.
+fn forbid(action: &mut ActionSchema, atoms: impl IntoIterator<Item = LiftedAtom>) {
+    action.preconditions.extend(atoms.into_iter().map(Literal::negative));
+    action.preconditions.sort_unstable();
+}
+
+/// The objects of the instances of a schema that are banned: those with the ban's call and effect.
+fn instances(ban: &Ban, schema: &ActionSchema, model: &ActionModel, task: &Task) -> Vec<Vec<Symbol>> {
+    let conditional = schema.effects.iter().any(|effect| !effect.is_unconditional());
+    let is_named = !conditional || ban.action == schema.name;
+    if ban.call.name != schema.call.name || ban.call.args.len() != schema.call.args.len() || !is_named {
+        return Vec::new();
+    }
+    let mut bound: BTreeMap<u32, &Symbol> = BTreeMap::new();
+    for (term, object) in schema.call.args.iter().zip(&ban.call.args) {
+        let fits = match term {
+            Term::Param(index) => *bound.entry(*index).or_insert(object) == object,
+            Term::Const(name) => name == object,
+        };
+        if !fits {
+            return Vec::new();
+        }
+    }
+    let in_effect: BTreeSet<&Symbol> = ban.adds.iter().chain(&ban.deletes).flat_map(|atom| &atom.args).collect();
+    let choices = (0..schema.parameters.len() as u32).map(|index| {
+        let fits = |object: &&Symbol| {
+            let mentioned = || schema.effects.iter().any(|e| e.literal.atom.params().any(|p| p == index));
+            bound.get(&index).map_or_else(
+                // What an unconditional effect mentions is mentioned by the effect that was banned.
+                || conditional || in_effect.contains(object) || !mentioned(),
+                |known| known == object,
+            )
+        };
+        let is_a =
+            |object: &&Symbol| model.hierarchy.is_a(task.init.objects[*object], schema.parameters[index as usize].ty);
+        task.init.objects.keys().filter(fits).filter(is_a).collect()
+    });
+    let choices: Vec<Vec<&Symbol>> = choices.collect();
+    let mut found = Vec::new();
+    for_each_choice(&choices, &mut Vec::new(), &mut |objects| {
+        let Ok(action) = schema.instantiate(objects, &task.init, &model.hierarchy) else { return };
+        let same = |a: &[GroundAtom], b: &[GroundAtom]| a == b;
+        if conditional || same(&action.adds, &ban.adds) && same(&action.deletes, &ban.deletes) {
+            found.push(objects.to_vec());
+        }
+    });
+    found
+}
+
+fn for_each_choice(choices: &[Vec<&Symbol>], chosen: &mut Vec<Symbol>, each: &mut impl FnMut(&[Symbol])) {
+    let Some(objects) = choices.get(chosen.len()) else { return each(chosen) };
+    for object in objects {
+        chosen.push((*object).clone());
+        for_each_choice(choices, chosen, each);
+        chosen.pop();
+    }
+}
