@@ -273,7 +273,7 @@ fn word_with_end(ends: fn(char) -> bool, change: impl Fn(&str) -> String) -> imp
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1000))]
+    #![proptest_config(ProptestConfig { cases: 1000, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn what_is_printed_reads_the_same(definitions in definitions()) {
