@@ -140,6 +140,14 @@ fn what_is_not_declared_is_an_error() {
         (refused_go("", is("wet van")), "action `go`: wet(van) has 1 arguments, its predicate takes 0"),
         (refused_go("", is("clean ?v")), "action `go`: there is no variable `?v`"),
         (refused_go("", is("clean car")), "action `go`: there is no object `car`"),
+        (
+            refused(&domain(vec![action("go", "", and([]), add("wet")), action("go", "", and([]), add("ok"))])),
+            "action `go`: there is another action of this name",
+        ),
+        (
+            refused(&Domain { constants: typed("a - truck|boat"), ..domain(Vec::new()) }),
+            "the constants: `a` is `either` of several types",
+        ),
         (refused_go("x - car", is("wet")), "action `go`: there is no type `car`"),
         (
             refused(&Domain { constants: typed("a - car"), ..domain(Vec::new()) }),
@@ -156,4 +164,24 @@ fn what_is_not_declared_is_an_error() {
     ] {
         assert_eq!(error.to_string(), message);
     }
+}
+
+#[test]
+fn deep_nesting_costs_neither_stack_nor_blow_up() {
+    let part = |i: usize| or([is("ok"), is(if i % 2 == 0 { "wet" } else { "clean van" })]);
+    let level = |inner: Formula, i: usize| match i % 4 {
+        0 => or([inner, and([part(i), part(i + 1)])]),
+        1 => and([inner, part(i)]),
+        2 => exists("v - truck", and([is("clean ?v"), not(inner)])),
+        _ => forall("p - place", or([is("at van ?p"), inner])),
+    };
+    let deep = (0..crate::MOST_NESTED / 2).fold(is("wet"), level);
+    let effect = (0..crate::MOST_NESTED).fold(add("wet"), |inner, i| match i % 3 {
+        0 => when(part(i), inner),
+        1 => both(inner, delete("clean van")),
+        _ if i < 60 => each("v - truck", inner),
+        _ => inner,
+    });
+    let model = compiled(&domain(vec![action("go", "", deep, effect)]));
+    assert!(model.actions.len() < 70 && model.axioms.len() < 2_000, "{} axioms", model.axioms.len());
 }
