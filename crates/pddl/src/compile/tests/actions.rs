@@ -168,7 +168,7 @@ fn what_is_not_declared_is_an_error() {
 
 #[test]
 fn deep_nesting_costs_neither_stack_nor_blow_up() {
-    let part = |i: usize| or([is("ok"), is(if i % 2 == 0 { "wet" } else { "clean van" })]);
+    let part = |i: usize| or([is("ok"), is(if i.is_multiple_of(2) { "wet" } else { "clean van" })]);
     let level = |inner: Formula, i: usize| match i % 4 {
         0 => or([inner, and([part(i), part(i + 1)])]),
         1 => and([inner, part(i)]),
