@@ -21,7 +21,7 @@ const ALLOWED: [(&str, &[&str]); 12] = [
     ("imagine", &["model", "plan"]),
     ("check", &["model"]),
     ("agent", &["model", "world", "plan", "imagine", "check"]),
-    ("bridge", &["model", "world"]),
+    ("bridge", &["model", "pddl", "world", "plan"]),
     ("kitchen", &["model", "world"]),
     ("typelift", &["model", "pddl", "world", "learn", "plan", "imagine", "check", "agent", "bridge"]),
     ("cli", &["typelift", "kitchen"]),

@@ -1,5 +1,9 @@
 //! How an episode goes about its task.
 
+use std::sync::Arc;
+
+use typelift_plan::ExternalPlanner;
+
 /// How an episode goes about its task.
 #[derive(Debug, Clone)]
 pub struct Options {
@@ -9,6 +13,8 @@ pub struct Options {
     pub strict: bool,
     /// How plans are looked for.
     pub plan: typelift_plan::Options,
+    /// Who plans instead of typelift's own planner.
+    pub planner: Option<Arc<dyn ExternalPlanner>>,
     /// Set the world back after a failure, and plan from the initial state.
     pub restart: bool,
     /// How often a failed step is tried again; by default once, and never with `restart`.
@@ -23,6 +29,7 @@ impl Default for Options {
             imagine: None,
             strict: true,
             plan: typelift_plan::Options::default(),
+            planner: None,
             restart: false,
             retries: None,
             max_proposals: 12,

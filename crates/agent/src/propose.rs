@@ -4,7 +4,7 @@ use thiserror::Error;
 use typelift_check::{Invalid, check};
 use typelift_imagine::{Imagination, imagine};
 use typelift_model::{ActionModel, Budget, Plan, Task, strict};
-use typelift_plan::{Cut, Explanation, Outcome, Planner, Report, Restrictions};
+use typelift_plan::{Cut, Explanation, ExternalFailure, Outcome, Planner, Report, Restrictions};
 
 use crate::options::Options;
 
@@ -15,29 +15,47 @@ pub struct Proposal {
     pub model: ActionModel,
     /// What was imagined.
     pub imagination: Imagination,
-    /// The planner, for further plans.
-    pub planner: Planner,
+    /// What was planned with.
+    searched: Searched,
     /// How the search ended.
     pub outcome: Outcome,
 }
 
+/// Who planned, and what.
+#[derive(Debug)]
+enum Searched {
+    /// The own planner, which can go on.
+    Own(Box<Planner>),
+    /// Somebody else's: the model and the task that it was asked, with the restrictions in them.
+    External(Box<(ActionModel, Task)>),
+}
+
 impl Proposal {
-    /// The counts of grounding and search.
+    /// The counts of grounding and search; nothing if somebody else planned.
     pub fn report(&self) -> Report {
-        self.planner.report()
+        match &self.searched {
+            Searched::Own(planner) => planner.report(),
+            Searched::External(_) => Report::default(),
+        }
     }
 
     /// Why there is no plan.
     pub fn explain(&self) -> Explanation {
-        self.planner.explain()
+        match &self.searched {
+            Searched::Own(planner) => planner.explain(),
+            Searched::External(_) => Explanation::Told,
+        }
     }
 
-    /// A further plan, checked.
+    /// A further plan, checked. Somebody else's planner is asked only once.
     ///
     /// # Errors
     /// [`ProposeError::Invalid`] if the planner's plan is not one.
     pub fn next_plan(&mut self, budget: &Budget) -> Result<Outcome, ProposeError> {
-        let outcome = self.planner.next_plan(budget);
+        let outcome = match &mut self.searched {
+            Searched::Own(planner) => planner.next_plan(budget),
+            Searched::External(_) => Outcome::NoMorePlans,
+        };
         self.checked(outcome)
     }
 
@@ -46,15 +64,21 @@ impl Proposal {
     /// # Errors
     /// [`ProposeError::Invalid`] if the planner's plan is not one.
     pub fn better_plan(&mut self, cost: u64, budget: &Budget) -> Result<Outcome, ProposeError> {
-        let outcome = self.planner.better_plan(cost, budget);
+        let outcome = match &mut self.searched {
+            Searched::Own(planner) => planner.better_plan(cost, budget),
+            Searched::External(_) => Outcome::NoMorePlans,
+        };
         self.checked(outcome)
     }
 
     fn checked(&self, outcome: Outcome) -> Result<Outcome, ProposeError> {
-        if let Outcome::Solved(plan) = &outcome {
-            check(&self.model, self.planner.task(), plan)
-                .map_err(|error| ProposeError::Invalid { plan: plan.clone(), error })?;
-        }
+        let Outcome::Solved(plan) = &outcome else { return Ok(outcome) };
+        match &self.searched {
+            Searched::Own(planner) => check(&self.model, planner.task(), plan)
+                .map_err(|error| ProposeError::Invalid { plan: plan.clone(), error })?,
+            Searched::External(asked) => check(&asked.0, &asked.1, plan)
+                .map_err(|error| ExternalFailure::InvalidPlan(format!("the planner's plan is not valid: {error}")))?,
+        };
         Ok(outcome)
     }
 }
@@ -73,6 +97,9 @@ pub enum ProposeError {
         /// What is wrong with it.
         error: Invalid,
     },
+    /// Somebody else's planner gave no usable answer.
+    #[error(transparent)]
+    External(#[from] ExternalFailure),
 }
 
 /// Plans a task with a learned model.
@@ -92,9 +119,19 @@ pub fn propose(
     };
     let widened = imagination.added_to(model);
     let model = if options.strict { strict(&widened) } else { widened };
-    let mut planner = Planner::new(&model, task, restrictions, &options.plan, budget)?;
-    let outcome = planner.next_plan(budget);
-    let proposal = Proposal { model, imagination, planner, outcome };
+    let (searched, outcome) = match &options.planner {
+        None => {
+            let mut planner = Planner::new(&model, task, restrictions, &options.plan, budget)?;
+            let outcome = planner.next_plan(budget);
+            (Searched::Own(Box::new(planner)), outcome)
+        }
+        Some(planner) => {
+            let asked = restrictions.compiled_into(&model, task);
+            let outcome = planner.plan(&asked.0, &asked.1, budget)?;
+            (Searched::External(Box::new(asked)), outcome)
+        }
+    };
+    let proposal = Proposal { model, imagination, searched, outcome };
     proposal.checked(proposal.outcome.clone())?;
     Ok(proposal)
 }

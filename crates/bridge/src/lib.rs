@@ -1,4 +1,5 @@
-//! An environment in a program of its own: a [`World`] that speaks `env/1` over a child's pipes.
+//! Other programs: an environment, as a [`World`] that speaks `env/1` over a child's pipes, and a planner that reads and
+//! writes PDDL files.
 //!
 //! ```no_run
 //! use typelift_bridge::{Bridge, Options};
@@ -17,6 +18,7 @@
 //! | `pipes.rs`   | the threads that read and write, so that nobody waits for a pipe        |
 //! | `answer.rs`  | reads an answer, and says where one is malformed                        |
 //! | `error.rs`   | what can go wrong, with what was sent and what came back                |
+//! | `planner_command.rs` | a planner: writes the task as PDDL, waits, reads the plan       |
 //!
 //! A child never outlives its [`Bridge`]: it leads a process group, and the group is killed when the bridge is
 //! dropped. (Whatever leaves the group on purpose, as a daemon does, is out of reach.) If the bridge's own process is
@@ -30,8 +32,10 @@ mod bridge;
 mod error;
 mod options;
 mod pipes;
+mod planner_command;
 mod process;
 
 pub use bridge::{Bridge, Stopper};
 pub use error::{BridgeError, Failure};
 pub use options::Options;
+pub use planner_command::PlannerCommand;

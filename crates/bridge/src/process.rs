@@ -33,17 +33,24 @@ struct Reaped {
 impl Process {
     /// Starts the command as the leader of a new group.
     pub(crate) fn start(command: &mut Command) -> io::Result<(Self, Pipes)> {
-        #[cfg(unix)]
-        std::os::unix::process::CommandExt::process_group(command, 0);
-        let mut child = command.spawn()?;
+        let mut child = spawn(command)?;
         let missing = || io::Error::other("a pipe is missing");
         let pipes = Pipes {
             stdin: child.stdin.take().ok_or_else(missing)?,
             stdout: child.stdout.take().ok_or_else(missing)?,
             stderr: child.stderr.take().ok_or_else(missing)?,
         };
+        Ok((Self::of(child), pipes))
+    }
+
+    /// Starts a command whose input and output are no pipes.
+    pub(crate) fn start_alone(command: &mut Command) -> io::Result<Self> {
+        spawn(command).map(Self::of)
+    }
+
+    fn of(child: Child) -> Self {
         let child = Mutex::new(Reaped { child, reaped: false, status: None });
-        Ok((Self { child, stopped: AtomicBool::new(false) }, pipes))
+        Self { child, stopped: AtomicBool::new(false) }
     }
 
     fn lock(&self) -> MutexGuard<'_, Reaped> {
@@ -87,6 +94,12 @@ impl Drop for Process {
     fn drop(&mut self) {
         self.end(Duration::ZERO);
     }
+}
+
+fn spawn(command: &mut Command) -> io::Result<Child> {
+    #[cfg(unix)]
+    std::os::unix::process::CommandExt::process_group(command, 0);
+    command.spawn()
 }
 
 fn wait_until(limit: Duration, mut done: impl FnMut() -> bool) -> bool {

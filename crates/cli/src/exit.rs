@@ -25,6 +25,10 @@ pub(crate) enum Exit {
     Environment = 35,
     /// The command line is wrong.
     Usage = 36,
+    /// Somebody else's planner failed.
+    Planner = 38,
+    /// Somebody else's planner gave a plan that is none.
+    InvalidPlan = 39,
     /// Somebody stopped it.
     Interrupted = 130,
 }
@@ -39,7 +43,7 @@ impl From<Exit> for ExitCode {
 mod tests {
     use super::*;
 
-    const ALL: [Exit; 11] = [
+    const ALL: [Exit; 13] = [
         Exit::Success,
         Exit::Unsolvable,
         Exit::NotAchieved,
@@ -50,6 +54,8 @@ mod tests {
         Exit::Unsupported,
         Exit::Environment,
         Exit::Usage,
+        Exit::Planner,
+        Exit::InvalidPlan,
         Exit::Interrupted,
     ];
 
@@ -66,6 +72,8 @@ mod tests {
             Exit::Unsupported => "unsupported",
             Exit::Environment => "environment failed",
             Exit::Usage => "wrong usage",
+            Exit::Planner => "planner failed",
+            Exit::InvalidPlan => "invalid plan",
             Exit::Interrupted => "interrupted",
         }
     }

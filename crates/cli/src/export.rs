@@ -8,13 +8,14 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use typelift::imagine::imagine;
 use typelift::model::{ActionModel, Budget, PddlNames, Symbol, Task, strict};
-use typelift::pddl::{ExportNames, ExportOptions, Exported, Level, export};
+use typelift::pddl::{ExportNames, ExportOptions, Exported, export};
 use typelift::plan::Restrictions;
 use typelift::world::{FileError, write_file};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::{domain_name, keep_inputs, read_model_input, task_name};
+use crate::planner_option::LevelArgument;
 use crate::style::count;
 
 /// Write a model, and a task for it, as files that other planners read
@@ -60,14 +61,6 @@ enum Format {
     Pddl,
 }
 
-#[derive(Debug, Clone, Copy, clap::ValueEnum)]
-enum LevelArgument {
-    /// Types and positive preconditions only; costs are left out
-    Strips,
-    /// All that the model has: negation, inequality, conditional effects, costs
-    Adl,
-}
-
 /// What `names.json` holds: for each name in PDDL the model's.
 #[derive(Serialize)]
 struct NamesFile<'a> {
@@ -92,10 +85,7 @@ impl Export {
         let options = ExportOptions {
             domain: domain_name(&self.model),
             problem: Symbol::from(self.task.as_deref().map(task_name).unwrap_or_default()),
-            level: match self.level {
-                LevelArgument::Strips => Level::Strips,
-                LevelArgument::Adl => Level::Adl,
-            },
+            level: self.level.into(),
         };
         let Exported { domain, problem, names } = export(&model, task.as_ref(), &options)?;
         self.make_folder()?;

@@ -6,7 +6,7 @@ use std::io;
 use typelift::agent::{ProposeError, RunError};
 use typelift::model::{ModelFileError, NameCollision, Stop, Symbol, nearest};
 use typelift::pddl::ExportError;
-use typelift::plan::Cut;
+use typelift::plan::{Cut, ExternalFailure};
 use typelift::world::{FileError, WorldError};
 
 use crate::exit::Exit;
@@ -107,6 +107,10 @@ impl From<ProposeError> for Failure {
     fn from(error: ProposeError) -> Self {
         match error {
             ProposeError::Cut(cut) => cut.into(),
+            ProposeError::External(ExternalFailure::Failed(message)) => {
+                Self::new(Exit::Planner, format!("the planner failed: {message}"))
+            }
+            ProposeError::External(ExternalFailure::InvalidPlan(message)) => Self::new(Exit::InvalidPlan, message),
             ProposeError::Invalid { .. } => Self::new(Exit::Internal, format!("{error}; this is a defect of typelift")),
         }
     }

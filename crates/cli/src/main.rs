@@ -19,6 +19,7 @@ mod pddl_check;
 mod pddl_domains;
 mod plan;
 mod plan_text;
+mod planner_option;
 mod run;
 mod show;
 mod style;

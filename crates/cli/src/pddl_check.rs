@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use typelift::model::Symbol;
 use typelift::pddl::{
-    Definition, DefinitionKind, Document, Domain, PddlError, Problem, Trajectory, read_problem, read_trajectory,
-    required_by_domain, required_by_problem, undeclared_requirements,
+    Definition, DefinitionKind, Document, Domain, PddlError, Problem, Trajectory, read_plan, read_problem,
+    read_trajectory, required_by_domain, required_by_problem, undeclared_requirements,
 };
 use typelift::world::{FileError, read_text};
 
@@ -23,6 +23,8 @@ enum Kind {
     /// With the name of the domain, if it is there.
     Problem(Option<String>),
     Trajectory,
+    /// By its ending.
+    Plan,
 }
 
 /// What is right about a file.
@@ -98,6 +100,9 @@ pub(crate) fn check(files: &[PathBuf], json: bool, quiet: bool) -> Result<Exit, 
 /// Looks at how a file begins; a domain is given to the problems.
 fn kind_of(file: &Path, domains: &mut Domains) -> Result<Kind, FileError> {
     let text = read_text(file)?;
+    if file.extension().is_some_and(|ending| ending == "plan") {
+        return Ok(Kind::Plan);
+    }
     let mut kind = || -> Result<Kind, PddlError> {
         let document = Document::read(&text)?;
         let root = document.only_root()?;
@@ -132,6 +137,11 @@ fn content_of(file: &Path, kind: Kind, domains: &mut Domains) -> Result<Content,
             let text = read_text(file)?;
             let trajectory = read_trajectory(&text).map_err(|error| FileError::from_pddl(file, &text, error))?;
             Ok(trajectory_content(&trajectory))
+        }
+        Kind::Plan => {
+            let text = read_text(file)?;
+            let plan = read_plan(&text).map_err(|error| FileError::from_pddl(file, &text, error))?;
+            Ok(content("plan", None, vec![("action", plan.len())], Vec::new()))
         }
     }
 }

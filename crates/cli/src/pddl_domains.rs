@@ -33,7 +33,8 @@ impl Domains {
     }
 
     /// The domain of a problem that says it belongs to `name`: one that was given, or else `domain.pddl` beside the
-    /// problem, or else the only one of that name in its folder or in the folder above.
+    /// problem, or else the only one of that name in its folder or in the folder above. Where none has that name, it is the
+    /// only one that was given.
     pub(crate) fn of_problem(&mut self, problem: &Path, name: &str) -> Result<Rc<Domain>, FileError> {
         let path = self.find(problem, &name.to_ascii_lowercase())?;
         self.read(&path).map_err(|error| FileError {
@@ -66,6 +67,10 @@ impl Domains {
                     return Err(FileError::new(problem, what).with_hint("Name the right one as well.".to_owned()));
                 }
             }
+        }
+        // With a single domain, the name is what is wrong.
+        if let [(path, _)] = self.given.as_slice() {
+            return Ok(path.clone());
         }
         let error = FileError::new(problem, format!("its domain `{name}` is not there"));
         Err(error.with_hint("Name the domain's file as well.".to_owned()))

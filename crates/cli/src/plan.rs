@@ -16,6 +16,7 @@ use crate::failure::{Failure, cut_exit};
 use crate::files::{keep_inputs, read_model_input};
 use crate::limits::{Clock, Interrupt, Limits};
 use crate::plan_text::{imagined_note, numbered_steps, plan_file, plan_size};
+use crate::planner_option::PlannerOption;
 use crate::style::{BAD, HEAD, HINT, count};
 
 /// Where the plan for a PDDL problem is written unless the user says otherwise, as Fast Downward does.
@@ -31,9 +32,12 @@ const HINT_EXPANSIONS: u64 = 20_000;
   typelift plan kitchen.json K/tasks/T4.1.json --imagine -o apple.plan
   typelift plan kitchen.json K/tasks/T1.4.json --plans 3
   typelift plan domain.pddl problem.pddl --better --time-limit 30s
+  typelift plan kitchen.json K/tasks/T1.1.json --planner \
+    'fast-downward --alias lama-first --plan-file {plan} {domain} {problem}'
 
 Exit codes: 0 a plan was found, 11 there is none in this model, 12 gave up at a
-limit, 22 out of memory, 23 out of time, 31 bad input, 36 wrong usage.")]
+limit, 22 out of memory, 23 out of time, 31 bad input, 34 unsupported PDDL,
+36 wrong usage, 38 the other planner failed, 39 its plan is not valid.")]
 pub(crate) struct Plan {
     /// The model, as `learn` wrote it, or a PDDL domain
     model: PathBuf,
@@ -47,10 +51,10 @@ pub(crate) struct Plan {
     imagine: bool,
     /// Find so many different plans
     #[arg(long, value_name = "N", default_value_t = 1, allow_negative_numbers = true,
-        value_parser = clap::value_parser!(u64).range(1..=1000))]
+        value_parser = clap::value_parser!(u64).range(1..=1000), conflicts_with = "planner")]
     plans: u64,
     /// Go on looking for shorter plans until there is none, a limit is met, or Ctrl-C is pressed
-    #[arg(long, conflicts_with = "plans")]
+    #[arg(long, conflicts_with_all = ["plans", "planner"])]
     better: bool,
     /// Use an action also where some of its effects hold already
     #[arg(long)]
@@ -61,6 +65,8 @@ pub(crate) struct Plan {
     /// Print one JSON object instead
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    planner: PlannerOption,
     #[command(flatten)]
     limits: Limits,
 }
@@ -105,7 +111,7 @@ impl Plan {
         let output = self.output.clone().or(default_output);
         let (model, task) = input.read_planning_task(&self.task)?;
         let begun = clock.elapsed();
-        let options = self.options(self.imagine);
+        let options = self.options(self.imagine)?;
         let mut proposal = match propose(&model, &task, &Restrictions::default(), &options, &budget) {
             Err(ProposeError::Cut(cut)) => return self.cut(cut, clock.elapsed() - begun),
             proposal => proposal?,
@@ -174,9 +180,15 @@ impl Plan {
         Ok(exit)
     }
 
-    fn options(&self, imagine: bool) -> Options {
+    fn options(&self, imagine: bool) -> Result<Options, Failure> {
         let plan = typelift::plan::Options { plans: self.plans as usize, ..Default::default() };
-        Options { imagine: imagine.then(imagine::Options::default), strict: !self.plain, plan, ..Options::default() }
+        Ok(Options {
+            imagine: imagine.then(imagine::Options::default),
+            strict: !self.plain,
+            plan,
+            planner: self.planner.open()?,
+            ..Options::default()
+        })
     }
 
     fn print(
@@ -193,9 +205,12 @@ impl Plan {
             (_, true, _) => "better: ".to_owned(),
             (_, false, _) => format!("plan {number}: "),
         };
-        let expansions = count(proposal.report().expansions, "expansion");
+        let expansions = match self.planner.is_given() {
+            true => String::new(),
+            false => format!(", {}", count(proposal.report().expansions, "expansion")),
+        };
         let size = plan_size(plan);
-        writeln!(out, "{HEAD}{head}{size}, {} ms, {expansions}{HEAD:#}", took.as_millis())?;
+        writeln!(out, "{HEAD}{head}{size}, {} ms{expansions}{HEAD:#}", took.as_millis())?;
         write!(out, "{}", numbered_steps(plan, &model.hierarchy))?;
         Ok(())
     }
@@ -245,7 +260,8 @@ impl Plan {
             return;
         }
         let limited = Budget { expansions: Some(HINT_EXPANSIONS), ..budget.clone() };
-        let imagined = propose(model, task, &Restrictions::default(), &self.options(true), &limited);
+        let Ok(options) = self.options(true) else { return };
+        let imagined = propose(model, task, &Restrictions::default(), &options, &limited);
         if let Ok(Proposal { outcome: Outcome::Solved(plan), .. }) = imagined {
             anstream::eprintln!(
                 "{HINT}hint{HINT:#}: --imagine finds a plan of {} resting on {}",

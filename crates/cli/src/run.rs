@@ -22,6 +22,7 @@ use crate::goal_check::GoalCheck;
 use crate::limits::{Clock, Interrupt, Limits, parse_duration, parse_whole};
 use crate::narrate::Narrator;
 use crate::plan_text::numbered_steps;
+use crate::planner_option::PlannerOption;
 use crate::style::HEAD;
 
 /// Expansions of one search, unless the user says otherwise: an agent that acts must not think for ever.
@@ -35,14 +36,18 @@ const EXPANSIONS: u64 = 200_000;
   typelift run kitchen.json K/faults/*.json --kitchen --imagine --json
   typelift run model.json task.json --env 'python3 robot.py' --imagine --confirm
 
+Tasks may be problems of a PDDL domain; the environment is then told the file,
+as scenario {\"problem\": FILE}.
+
 Each step's outcome is compared with what was expected. After a failure it
 excludes, imagines, plans again and remembers, also for the tasks after it. One
 search expands at most 200,000 nodes unless --max-expansions says otherwise.
 
 Exit codes: 0 every goal was seen to hold, 12 not every one, 31 bad input,
-35 the environment failed, 36 wrong usage.")]
+35 the environment failed, 36 wrong usage, 38 the other planner failed, 39 its
+plan is not valid.")]
 pub(crate) struct Run {
-    /// The model, as `learn` wrote it
+    /// The model, as `learn` wrote it, or a PDDL domain
     model: PathBuf,
     /// Tasks, in order
     #[arg(required = true, value_name = "TASK")]
@@ -87,6 +92,8 @@ pub(crate) struct Run {
     #[arg(long)]
     json: bool,
     #[command(flatten)]
+    planner: PlannerOption,
+    #[command(flatten)]
     limits: Limits,
 }
 
@@ -128,6 +135,7 @@ impl Run {
                 TaskInput::Problem(model, task) => (path, Arc::new(model), self.reset_to_problem(path), task),
             });
         }
+        let options = self.options()?;
         let mut world = self.open(&interrupt)?;
         if self.restart && !world.can_reset() {
             return Err(Failure::bad_input(format!("--restart: {} cannot be reset", world.name()))
@@ -150,7 +158,7 @@ impl Run {
             narrator.planning = Duration::ZERO;
             let budget = self.limits.with_default_expansions(EXPANSIONS).budget(clock, &interrupt);
             let mut episode =
-                Episode::new(Arc::clone(&model), task.clone(), self.options(), experience.clone(), budget);
+                Episode::new(Arc::clone(&model), task.clone(), options.clone(), experience.clone(), budget);
             let mut parser = Parser::new(model.hierarchy.clone(), model.parse.clone());
             let goal = task.goal_literals().map(|(atom, _)| atom.clone()).collect();
             let mut checked = GoalCheck { world: &mut *world, model: &model, goal, error: None };
@@ -203,15 +211,16 @@ impl Run {
         Ok(Box::new(bridge))
     }
 
-    fn options(&self) -> Options {
-        Options {
+    fn options(&self) -> Result<Options, Failure> {
+        Ok(Options {
+            planner: self.planner.open()?,
             imagine: self.imagine.then(imagine::Options::default),
             strict: !self.plain,
             restart: self.restart,
             retries: self.retries,
             max_proposals: self.max_proposals,
             ..Options::default()
-        }
+        })
     }
 
     /// How the environment is set up: as the task says, or, in the kitchen, from the state that it gives.

@@ -37,7 +37,6 @@ impl Tape {
     }
 }
 
-/// The names of a list in which no name is a copy of another.
 fn symbols(names: &[&str]) -> Vec<Symbol> {
     names.iter().map(|name| Symbol::new(name)).collect()
 }
@@ -287,8 +286,8 @@ impl Generator<'_> {
         let objects = self.objects(&["a", "b", "c", "d"], 2);
         self.objects.extend(objects.iter().cloned());
         let atoms = self.ground_atoms(base);
-        let init = (0..self.tape.below(8)).filter_map(|_| (!atoms.is_empty()).then(|| self.tape.pick(&atoms).clone()));
-        let mut init: Vec<Atom<Symbol>> = init.collect();
+        let number = if atoms.is_empty() { 0 } else { self.tape.below(8) };
+        let mut init: Vec<Atom<Symbol>> = (0..number).map(|_| self.tape.pick(&atoms).clone()).collect();
         init.sort();
         init.dedup();
         let tolls = self.objects.clone().into_iter().map(|object| {

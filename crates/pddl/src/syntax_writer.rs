@@ -29,8 +29,9 @@ fn is_typed(list: &[Typed]) -> bool {
     list.iter().any(|typed| typed.types != [ROOT])
 }
 
-/// `?x - block ?y - table`; without types if `typed` is not set.
+/// `?x - block ?y - table`; if all are of type `object`, with types only if `typed` is set.
 fn write_variables(f: &mut Formatter<'_>, variables: &[Typed], typed: bool) -> fmt::Result {
+    let typed = typed || is_typed(variables);
     for (i, Typed { name, types }) in variables.iter().enumerate() {
         write!(f, "{}?{name}", if i == 0 { "" } else { " " })?;
         if typed {
@@ -51,7 +52,7 @@ fn write_signature(f: &mut Formatter<'_>, signature: &Signature, typed: bool) ->
 
 impl Display for Signature {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write_signature(f, self, is_typed(&self.parameters))
+        write_signature(f, self, false)
     }
 }
 
@@ -69,7 +70,7 @@ fn write_list<T: Display>(f: &mut Formatter<'_>, word: &str, parts: &[T]) -> fmt
 
 fn write_quantified(f: &mut Formatter<'_>, word: &str, variables: &[Typed], body: &dyn Display) -> fmt::Result {
     write!(f, "({word} (")?;
-    write_variables(f, variables, is_typed(variables))?;
+    write_variables(f, variables, false)?;
     write!(f, ") {body})")
 }
 
@@ -147,6 +148,7 @@ fn typed_lines<'a>(entries: impl Iterator<Item = (&'a Symbol, String)>) -> Vec<S
 }
 
 fn object_lines(objects: &[Typed], typed: bool) -> Vec<String> {
+    let typed = typed || is_typed(objects);
     let ty = |object: &Typed| if typed { Types(&object.types).to_string() } else { String::new() };
     typed_lines(objects.iter().map(|object| (&object.name, ty(object))))
 }
@@ -222,7 +224,7 @@ impl Display for Domain {
     /// As a file: types in the order in which they are declared, those that follow each other below one parent on a
     /// line; a predicate, a literal of a conjunction a line each.
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let typed = !self.types.is_empty() || is_typed(&self.constants);
+        let typed = !self.types.is_empty();
         write_comment(f, "", &self.comment)?;
         writeln!(f, "(define (domain {})", self.name)?;
         write_requirements(f, &self.requirements)?;
@@ -254,7 +256,7 @@ impl Display for Problem {
         write_comment(f, "", &self.comment)?;
         writeln!(f, "(define (problem {})\n  (:domain {})", self.name, self.domain)?;
         write_requirements(f, &self.requirements)?;
-        write_block(f, ":objects", &object_lines(&self.objects, is_typed(&self.objects)), true)?;
+        write_block(f, ":objects", &object_lines(&self.objects, false), true)?;
         f.write_str("  (:init")?;
         self.init.iter().try_for_each(|atom| write!(f, "\n    {}", Fact(atom)))?;
         self.values.iter().try_for_each(|(function, value)| write!(f, "\n    (= {} {value})", Fact(function)))?;

@@ -85,6 +85,8 @@ pub enum Explanation {
         /// The other.
         other: GroundAtom,
     },
+    /// Somebody else's planner says so, and no more.
+    Told,
     /// These atoms must not hold in the end, but do from the start, and no action deletes them.
     Lasting(Vec<GroundAtom>),
     /// Each goal atom can be reached, but not all together; where the search came closest, these were missing.
@@ -120,6 +122,7 @@ impl fmt::Display for Explanation {
             Self::Exclusive { one, other } => {
                 write!(f, "{one} and {other} cannot hold together: whatever achieves the one deletes the other")
             }
+            Self::Told => f.write_str("the planner says that there is none"),
             Self::Lasting(atoms) => {
                 let lines: Vec<String> = atoms
                     .iter()

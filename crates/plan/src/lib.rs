@@ -13,6 +13,7 @@
 mod axiom;
 mod emit;
 mod explain;
+mod external;
 mod fact;
 mod ground;
 pub mod heuristic;
@@ -26,6 +27,7 @@ mod search;
 mod successor;
 
 pub use explain::{Explanation, Misfit, Nearest, UnreachableGoal};
+pub use external::{ExternalFailure, ExternalPlanner};
 pub use fact::FactId;
 pub use ground::{ConditionalEffect, GroundTask, Op, OpId, TieOrder, ground};
 pub use landmark::{LandmarkSequence, landmark_sequences};

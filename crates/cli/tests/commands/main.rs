@@ -12,6 +12,7 @@ mod help;
 mod learning;
 mod limits;
 mod outputs;
+mod pddl_files;
 mod planning;
 mod recorded;
 mod simulator;

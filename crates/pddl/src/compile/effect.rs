@@ -10,7 +10,7 @@ use super::block::{Block, Visible};
 use super::case::Case;
 use super::error::CompileError;
 use super::invent::renumbered;
-use super::normal::Normal;
+use super::normal::{Normal, negated};
 use super::solve::{Solved, solve};
 use crate::{Amount, PddlAtom, PddlEffect};
 
@@ -140,7 +140,8 @@ pub(super) fn effects_of(
                 let literals = in_schema(&literals, declared, &own, schema);
                 let rigid = schema.variables.len();
                 let variables = [schema.variables.as_slice(), &typing].concat();
-                effects.extend(effect(block, variables, rigid, &literals));
+                let effect = effect(block, variables, rigid, &literals);
+                effects.extend(effect.and_then(|effect| without_known_equalities(effect, &schema.literals)));
                 if effects.len() > most {
                     return Err(block.error(format!("it has more than {most} effects")).not_supported());
                 }
@@ -172,4 +173,14 @@ fn effect(block: &Block<'_>, variables: Vec<Parameter>, rigid: usize, literals: 
     let solved = solve(block.world, variables, rigid, condition)?;
     let literal = Literal { atom: changed.atom.map(|term| solved.term(term)), positive: changed.positive };
     Some(Effect { condition: solved.literals, literal, parameters: solved.variables[rigid..].to_vec() })
+}
+
+/// The effect without the equalities that the precondition decides; `None` if it decides against one.
+fn without_known_equalities(mut effect: Effect, precondition: &[Literal]) -> Option<Effect> {
+    let is_known = |literal: &Literal| literal.atom.is_equality() && precondition.binary_search(literal).is_ok();
+    if effect.condition.iter().any(|literal| is_known(&negated(literal))) {
+        return None;
+    }
+    effect.condition.retain(|literal| !is_known(literal));
+    Some(effect)
 }

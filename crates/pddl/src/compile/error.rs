@@ -122,24 +122,24 @@ impl CompileError {
 mod tests {
     use super::*;
 
-    fn located(part: CompilePart, text: &str) -> String {
-        CompileError::new(&part, "bad").locate(text).to_string()
+    fn located(part: &CompilePart, text: &str) -> String {
+        CompileError::new(part, "bad").locate(text).to_string()
     }
 
     #[test]
     fn the_part_is_found() {
         let domain = "(define (domain d)\n (:types a)\n (:action go)\n (:ACTION Stop)\n (:derived (On ?x) (and)))";
-        assert_eq!(located(CompilePart::Types, domain), "line 2, column 2: bad");
-        assert_eq!(located(CompilePart::Action(Symbol::new("stop")), domain), "line 4, column 11: bad");
-        assert_eq!(located(CompilePart::Derived(Symbol::new("on")), domain), "line 5, column 12: bad");
+        assert_eq!(located(&CompilePart::Types, domain), "line 2, column 2: bad");
+        assert_eq!(located(&CompilePart::Action(Symbol::new("stop")), domain), "line 4, column 11: bad");
+        assert_eq!(located(&CompilePart::Derived(Symbol::new("on")), domain), "line 5, column 12: bad");
         let problem = "(define (problem p)\n (:goal (and)))";
-        assert_eq!(located(CompilePart::Goal, problem), "line 2, column 2: bad");
+        assert_eq!(located(&CompilePart::Goal, problem), "line 2, column 2: bad");
     }
 
     #[test]
     fn a_text_without_the_part_still_gives_an_error() {
         for text in ["", "(", "(define)", "(define (domain d))"] {
-            assert_eq!(located(CompilePart::Goal, text), "line 1, column 1: the goal: bad", "{text}");
+            assert_eq!(located(&CompilePart::Goal, text), "line 1, column 1: the goal: bad", "{text}");
         }
     }
 }

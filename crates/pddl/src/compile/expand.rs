@@ -21,6 +21,8 @@ pub(super) struct Expansion<'e, 'w> {
     /// The object of each variable of a quantifier that is being written out.
     chosen: Vec<Option<Symbol>>,
     literals: u64,
+    /// Whether one is inside of a quantifier that stays.
+    inside: bool,
 }
 
 impl<'e, 'w> Expansion<'e, 'w> {
@@ -28,7 +30,7 @@ impl<'e, 'w> Expansion<'e, 'w> {
     pub(super) fn new(block: &'e Block<'w>, init: &'e BTreeSet<GroundAtom>, fluents: &'e BTreeSet<Symbol>) -> Self {
         let choices = choices(block);
         let chosen = vec![None; choices.len()];
-        Self { block, init, fluents, choices, chosen, literals: 0 }
+        Self { block, init, fluents, choices, chosen, literals: 0, inside: false }
     }
 
     /// The condition, with quantifiers written out unless that is too long.
@@ -55,9 +57,11 @@ impl<'e, 'w> Expansion<'e, 'w> {
     }
 
     fn quantified(&mut self, all: bool, variables: &[u32], body: &Normal) -> Result<Normal, CompileError> {
-        let instances = self.instances(variables);
-        if instances.saturating_mul(self.size(body)) > self.block.world.limits.written_out {
+        let literals = self.instances(variables).saturating_mul(self.size(body));
+        if self.inside || literals > self.block.world.limits.written_out {
+            let outer = std::mem::replace(&mut self.inside, true);
             let body = self.expand(body)?;
+            self.inside = outer;
             return Ok(Normal::quantified(all, variables.to_vec(), body));
         }
         let mut parts = Vec::new();

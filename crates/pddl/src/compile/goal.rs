@@ -21,7 +21,8 @@ pub(super) struct Goal {
     pub(super) negative: Vec<GroundAtom>,
 }
 
-/// Compiles a goal for this initial state. One that can never hold becomes an atom that never does.
+/// Compiles a goal for this initial state. Where it is clear that it can never hold, and no atom of the text says so, it
+/// is given an atom that never does.
 pub(super) fn compile_goal(
     goal: &Formula,
     world: World<'_>,
@@ -31,8 +32,8 @@ pub(super) fn compile_goal(
 ) -> Result<Goal, CompileError> {
     let mut block = Block::new(CompilePart::Goal, Symbol::new("goal"), world, inventions);
     let normal = block.normal(goal, true, &mut Visible::new())?;
-    let expanded = Expansion::new(&block, init, fluents).expand(&normal)?;
-    let literals = match goal_literals(&mut block, expanded)? {
+    let parts = expanded(&mut Expansion::new(&block, init, fluents), normal)?;
+    let literals = match goal_literals(&mut block, &parts)? {
         Some(literals) => literals,
         None => vec![Literal::positive(Atom { predicate: inventions.predicate("goal-never", 0), args: Vec::new() })],
     };
@@ -44,15 +45,30 @@ pub(super) fn compile_goal(
     Ok(compiled)
 }
 
-/// The literals of a goal, each once; `None` if it can never hold.
-fn goal_literals(block: &mut Block<'_>, goal: Normal) -> Result<Option<Vec<Literal>>, CompileError> {
+/// The parts of a goal, expanded. A literal that never changes and does not hold stays: it says why the goal cannot be
+/// reached.
+fn expanded(expansion: &mut Expansion<'_, '_>, goal: Normal) -> Result<Vec<Normal>, CompileError> {
     let parts = match goal {
         Normal::And(parts) => parts,
         part => vec![part],
     };
+    let mut expanded = Vec::with_capacity(parts.len());
+    for part in parts {
+        let is_literal = matches!(part, Normal::Literal(_));
+        match expansion.expand(&part)? {
+            Normal::And(inner) => expanded.extend(inner),
+            new if is_literal && new.decided() == Some(false) => expanded.push(part),
+            new => expanded.push(new),
+        }
+    }
+    Ok(expanded)
+}
+
+/// The literals of a goal of these parts, each once; `None` if it can never hold.
+fn goal_literals(block: &mut Block<'_>, parts: &[Normal]) -> Result<Option<Vec<Literal>>, CompileError> {
     let mut seen = BTreeSet::new();
     let mut literals: Vec<Literal> = Vec::new();
-    for part in &parts {
+    for part in parts {
         let cases = block.cases(part)?;
         let new = match cases.as_slice() {
             [Case { exists, literals }] if exists.is_empty() => literals.clone(),

@@ -71,7 +71,12 @@ fn domain_within(domain: &Domain, limits: Limits) -> Result<ActionModel, Compile
     let derived: BTreeSet<&Symbol> = domain.derived.iter().map(|derived| &derived.head.name).collect();
     let mut names = FreshNames::with(domain.actions.iter().map(|action| action.name.clone()));
     let mut actions = Vec::new();
+    let mut seen = BTreeSet::new();
     for action in &domain.actions {
+        if !seen.insert(&action.name) {
+            let part = CompilePart::Action(action.name.clone());
+            return Err(CompileError::new(&part, "there is another action of this name"));
+        }
         actions.extend(schema::compile_action(action, world, &mut inventions, &derived, &mut names)?);
     }
     actions.sort_by(|a, b| a.name.cmp(&b.name));
@@ -136,7 +141,7 @@ fn add_objects(
             [] => ROOT,
             [ty] => ty.as_str(),
             _ => {
-                let message = format!("`{name}` is of one of several types");
+                let message = format!("`{name}` is `either` of several types");
                 return Err(CompileError::new(part, message).not_supported());
             }
         };

@@ -111,7 +111,6 @@ impl Solver<'_> {
                     return Some(false);
                 }
                 if (kept as usize) < self.rigid && both != kept_type {
-                    self.variables[gone as usize].ty = both;
                     return Some(false);
                 }
                 self.variables[kept as usize].ty = both;

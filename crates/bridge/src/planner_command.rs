@@ -1,0 +1,189 @@
+//! A planner in a child process: task and model are written as PDDL, its plan is read.
+
+use std::fs::{self, File};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitStatus, Stdio};
+use std::time::Duration;
+
+use tempfile::TempDir;
+use typelift_model::{ActionModel, Budget, Plan, Stop, Symbol, Task};
+use typelift_pddl::{ExportNames, ExportOptions, Exported, Level, export, read_plan};
+use typelift_plan::{ExternalFailure, ExternalPlanner, Outcome};
+
+use crate::error::shorten;
+use crate::process::Process;
+
+/// How long a planner may take to end when it is asked to.
+const GRACE: Duration = Duration::from_secs(1);
+
+/// How often it is looked whether the planner has ended.
+const INTERVAL: Duration = Duration::from_millis(20);
+
+/// Lines of what the planner printed that are told when it fails.
+const TOLD: usize = 5;
+
+/// A command that plans: `fast-downward --alias lama-first --plan-file {plan} {domain} {problem}`.
+///
+/// The command runs in an empty folder. The plan is read from `{plan}`; if that is not there, from the last of
+/// `{plan}.1`, `{plan}.2`, …, or from what it left beside the problem, `sas_plan` or `problem.pddl.soln`.
+#[derive(Debug, Clone)]
+pub struct PlannerCommand {
+    words: Vec<String>,
+    level: Level,
+}
+
+/// The files of one request.
+struct Exchange {
+    folder: TempDir,
+    names: ExportNames,
+}
+
+impl PlannerCommand {
+    /// Reads a command line, with quotation marks as in a shell.
+    ///
+    /// # Errors
+    /// What is wrong with it, in words.
+    pub fn new(command_line: &str, level: Level) -> Result<Self, String> {
+        let words = shlex::split(command_line).ok_or("the command ends within a quotation")?;
+        if words.is_empty() {
+            return Err("the command names no program".to_owned());
+        }
+        for place in ["{domain}", "{problem}"] {
+            if !words.iter().any(|word| word.contains(place)) {
+                return Err(format!("the command says nowhere where the planner finds {place}"));
+            }
+        }
+        // The command runs elsewhere.
+        let here = |word: String| match Path::new(&word).canonicalize() {
+            Ok(path) if word.contains('/') => path.to_string_lossy().into_owned(),
+            _ => word,
+        };
+        Ok(Self { words: words.into_iter().map(here).collect(), level })
+    }
+
+    fn program(&self) -> &str {
+        self.words[0].rsplit('/').next().unwrap_or_default()
+    }
+
+    fn write(&self, model: &ActionModel, task: &Task) -> Result<Exchange, ExternalFailure> {
+        let failed = |error: &dyn std::fmt::Display| ExternalFailure::Failed(error.to_string());
+        let options = ExportOptions { domain: "model".into(), problem: "task".into(), level: self.level };
+        let Exported { domain, problem, names } = export(model, Some(task), &options).map_err(|e| failed(&e))?;
+        let folder = tempfile::tempdir().map_err(|e| failed(&e))?;
+        let write = |name: &str, text: String| fs::write(folder.path().join(name), text).map_err(|e| failed(&e));
+        write("domain.pddl", domain.to_string())?;
+        write("problem.pddl", problem.map(|problem| problem.to_string()).unwrap_or_default())?;
+        Ok(Exchange { folder, names })
+    }
+
+    fn start(&self, exchange: &Exchange) -> io::Result<Process> {
+        let path = |name: &str| exchange.path(name).to_string_lossy().into_owned();
+        let filled = |word: &String| {
+            word.replace("{domain}", &path("domain.pddl"))
+                .replace("{problem}", &path("problem.pddl"))
+                .replace("{plan}", &path("plan"))
+        };
+        let words: Vec<String> = self.words.iter().map(filled).collect();
+        let log = File::create(exchange.path("log"))?;
+        let mut command = Command::new(&words[0]);
+        command.args(&words[1..]).current_dir(exchange.folder.path());
+        command.stdin(Stdio::null()).stdout(log.try_clone()?).stderr(log);
+        Process::start_alone(&mut command)
+    }
+
+    /// What the planner left: a plan, or the reason why there is none.
+    fn answer(
+        &self,
+        exchange: &Exchange,
+        status: Option<ExitStatus>,
+        stopped: Option<Stop>,
+        model: &ActionModel,
+        task: &Task,
+    ) -> Result<Outcome, ExternalFailure> {
+        if let Some(file) = exchange.plan_file() {
+            return exchange.read(&file, model, task).map(Outcome::Solved).map_err(|message| {
+                ExternalFailure::InvalidPlan(format!("the plan of {} cannot be used: {message}", self.program()))
+            });
+        }
+        if let Some(stop) = stopped {
+            return Ok(stop.into());
+        }
+        // Fast Downward's exit codes, which others have taken over.
+        match status.and_then(|status| status.code()) {
+            Some(10 | 11) => Ok(Outcome::Unsolvable),
+            Some(12) => Ok(Outcome::GaveUp),
+            Some(20 | 22) => Ok(Outcome::OutOfMemory),
+            Some(21 | 23) => Ok(Outcome::OutOfTime),
+            _ => {
+                let how = match status.map(|status| (status.success(), status)) {
+                    Some((true, _)) => "ended without a plan".to_owned(),
+                    Some((false, status)) => format!("failed ({status})"),
+                    None => "failed".to_owned(),
+                };
+                let said: String = exchange.last_words().iter().map(|line| format!("\n  {line}")).collect();
+                Err(ExternalFailure::Failed(format!("{} {how}{said}", self.program())))
+            }
+        }
+    }
+}
+
+impl ExternalPlanner for PlannerCommand {
+    fn plan(&self, model: &ActionModel, task: &Task, budget: &Budget) -> Result<Outcome, ExternalFailure> {
+        let exchange = self.write(model, task)?;
+        let process = self
+            .start(&exchange)
+            .map_err(|error| ExternalFailure::Failed(format!("cannot start {}: {error}", self.words[0])))?;
+        let mut stopped = None;
+        while !process.wait(INTERVAL) {
+            stopped = budget.stopped();
+            if stopped.is_some() {
+                break;
+            }
+        }
+        let status = process.end(if stopped.is_some() { GRACE } else { Duration::ZERO });
+        self.answer(&exchange, status, stopped, model, task)
+    }
+}
+
+impl Exchange {
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    /// Where the plan is: of several, the last is the best.
+    fn plan_file(&self) -> Option<PathBuf> {
+        let is_there = |name: &str| Some(self.path(name)).filter(|path| path.is_file());
+        let last_of = |name: &str| (1..).map_while(|n| is_there(&format!("{name}.{n}"))).last();
+        let one_of = |name: &str| last_of(name).or_else(|| is_there(name));
+        one_of("plan").or_else(|| one_of("sas_plan")).or_else(|| is_there("problem.pddl.soln"))
+    }
+
+    fn read(&self, file: &Path, model: &ActionModel, task: &Task) -> Result<Plan, String> {
+        let text = fs::read_to_string(file).map_err(|error| error.to_string())?;
+        let lines = read_plan(&text).map_err(|error| error.to_string())?;
+        let mut plan = Plan::default();
+        for (i, line) in lines.iter().enumerate() {
+            let at = |what: String| format!("step {}: {what}", i + 1);
+            let args = line.args.iter().map(Symbol::as_str);
+            let (action, objects) = self.names.step(line.name.as_str(), args).map_err(|error| at(error.to_string()))?;
+            let Some(schema) = model.action(action.as_str()) else { return Err(at(format!("there is no {action}"))) };
+            if schema.parameters.len() != objects.len() {
+                let (expected, found) = (schema.parameters.len(), objects.len());
+                return Err(at(format!("{action} takes {expected} objects, not {found}")));
+            }
+            let cost = schema.cost.of(&objects, &task.values);
+            let cost = cost.ok_or_else(|| at(format!("what {action} costs there is not stated")))?;
+            plan.steps.push(schema.step(objects, cost));
+        }
+        Ok(plan)
+    }
+
+    /// The last lines that the planner printed.
+    fn last_words(&self) -> Vec<String> {
+        let log = fs::read(self.path("log")).unwrap_or_default();
+        let text = String::from_utf8_lossy(&log);
+        let lines: Vec<&str> = text.lines().filter(|line| !line.trim().is_empty()).collect();
+        lines[lines.len().saturating_sub(TOLD)..].iter().map(|line| shorten(line)).collect()
+    }
+}

@@ -1,0 +1,56 @@
+//! `--planner`: somebody else's planner in the place of ours.
+
+use std::sync::Arc;
+
+use typelift::bridge::PlannerCommand;
+use typelift::pddl::Level;
+use typelift::plan::ExternalPlanner;
+
+use crate::exit::Exit;
+use crate::failure::Failure;
+
+/// Which planner plans.
+#[derive(Debug, Clone, clap::Args)]
+pub(crate) struct PlannerOption {
+    /// Have this command plan; it is given {domain} and {problem}, and writes {plan}
+    #[arg(long, value_name = "COMMAND")]
+    planner: Option<String>,
+    /// How much of PDDL that planner knows
+    #[arg(long, value_enum, default_value_t = LevelArgument::Adl, requires = "planner")]
+    planner_level: LevelArgument,
+}
+
+/// How much of PDDL a planner knows.
+#[derive(Debug, Clone, Copy, clap::ValueEnum)]
+pub(crate) enum LevelArgument {
+    /// Types and positive preconditions only; costs are left out
+    Strips,
+    /// All that the model has: negation, inequality, conditional effects, costs
+    Adl,
+}
+
+impl From<LevelArgument> for Level {
+    fn from(level: LevelArgument) -> Self {
+        match level {
+            LevelArgument::Strips => Self::Strips,
+            LevelArgument::Adl => Self::Adl,
+        }
+    }
+}
+
+impl PlannerOption {
+    /// Whether there is one.
+    pub(crate) fn is_given(&self) -> bool {
+        self.planner.is_some()
+    }
+
+    /// The planner, if there is one.
+    pub(crate) fn open(&self) -> Result<Option<Arc<dyn ExternalPlanner>>, Failure> {
+        let Some(command) = &self.planner else { return Ok(None) };
+        match PlannerCommand::new(command, self.planner_level.into()) {
+            Ok(planner) => Ok(Some(Arc::new(planner))),
+            Err(message) => Err(Failure::new(Exit::Usage, format!("--planner '{command}': {message}"))
+                .with_hint("Write for example --planner 'fast-downward --plan-file {plan} {domain} {problem} --search \"astar(lmcut())\"'")),
+        }
+    }
+}
