@@ -30,10 +30,10 @@ enum Kind {
 /// What is right about a file.
 #[derive(Debug, Serialize)]
 struct Content {
-    kind: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     name: Option<Symbol>,
     /// How many of what, in the order in which they are told.
+    #[serde(serialize_with = "as_object")]
     counts: Vec<(&'static str, u64)>,
     /// Requirements that are used but not declared.
     undeclared: Vec<&'static str>,
@@ -43,6 +43,8 @@ struct Content {
 #[derive(Debug, Serialize)]
 struct Report {
     file: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    kind: Option<&'static str>,
     #[serde(flatten)]
     content: Option<Content>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -58,26 +60,43 @@ struct Problematic {
     unsupported: bool,
 }
 
+impl Kind {
+    fn name(&self) -> &'static str {
+        match self {
+            Self::Domain => DefinitionKind::Domain.name(),
+            Self::Problem(_) => DefinitionKind::Problem.name(),
+            Self::Trajectory => "trajectory",
+            Self::Plan => "plan",
+        }
+    }
+}
+
+/// `{"actions": 4, "initial_atoms": 0}`.
+fn as_object<S: serde::Serializer>(counts: &[(&'static str, u64)], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(counts.iter().map(|(what, n)| (format!("{}s", what.replace(' ', "_")), n)))
+}
+
 pub(crate) fn check(files: &[PathBuf], json: bool, quiet: bool) -> Result<Exit, Failure> {
     let mut domains = Domains::default();
     let kinds: Vec<Result<Kind, FileError>> = files.iter().map(|file| kind_of(file, &mut domains)).collect();
     let mut out = anstream::stdout().lock();
     let (mut wrong, mut unsupported) = (false, false);
     for (file, kind) in files.iter().zip(kinds) {
+        let name = kind.as_ref().ok().map(Kind::name);
         let content = kind.and_then(|kind| content_of(file, kind, &mut domains));
         if let Err(error) = &content {
             wrong |= !error.unsupported;
             unsupported |= error.unsupported;
         }
         if json {
-            let line = serde_json::to_string(&report(file, content)).unwrap_or_default();
+            let line = serde_json::to_string(&report(file, name, content)).unwrap_or_default();
             writeln!(out, "{line}")?;
             continue;
         }
         let shown = file.display();
         match content {
             Ok(content) => {
-                writeln!(out, "{shown}: {}", summary(&content))?;
+                writeln!(out, "{shown}: {}{}", name.unwrap_or_default(), summary(&content))?;
                 if !content.undeclared.is_empty() && !quiet {
                     let names = content.undeclared.join(" ");
                     anstream::eprintln!("{WARNING}warning{WARNING:#}: {shown}: used, but not required: {names}");
@@ -141,7 +160,7 @@ fn content_of(file: &Path, kind: Kind, domains: &mut Domains) -> Result<Content,
         Kind::Plan => {
             let text = read_text(file)?;
             let plan = read_plan(&text).map_err(|error| FileError::from_pddl(file, &text, error))?;
-            Ok(content("plan", None, vec![("action", plan.len())], Vec::new()))
+            Ok(content(None, vec![("action", plan.len())], Vec::new()))
         }
     }
 }
@@ -156,7 +175,7 @@ fn domain_content(domain: &Domain) -> Content {
         ("derivation", domain.derived.len()),
     ];
     let undeclared = undeclared_requirements(&required_by_domain(domain), &domain.requirements);
-    content("domain", Some(&domain.name), counts, undeclared)
+    content(Some(&domain.name), counts, undeclared)
 }
 
 fn problem_content(problem: &Problem, domain: &Domain) -> Content {
@@ -166,38 +185,36 @@ fn problem_content(problem: &Problem, domain: &Domain) -> Content {
     let lacking = undeclared_requirements(&required_by_domain(domain), &domain.requirements);
     let mut undeclared = undeclared_requirements(&required_by_problem(problem), &declared);
     undeclared.retain(|name| !lacking.contains(name));
-    content("problem", Some(&problem.name), counts, undeclared)
+    content(Some(&problem.name), counts, undeclared)
 }
 
 fn trajectory_content(trajectory: &Trajectory) -> Content {
     let counts = vec![("state", trajectory.states.len()), ("action", trajectory.actions.len())];
-    content("trajectory", None, counts, Vec::new())
+    content(None, counts, Vec::new())
 }
 
-fn content(
-    kind: &'static str,
-    name: Option<&Symbol>,
-    counts: Vec<(&'static str, usize)>,
-    undeclared: Vec<&'static str>,
-) -> Content {
+fn content(name: Option<&Symbol>, counts: Vec<(&'static str, usize)>, undeclared: Vec<&'static str>) -> Content {
     let counts = counts.into_iter().map(|(what, n)| (what, n as u64)).collect();
-    Content { kind, name: name.cloned(), counts, undeclared }
+    Content { name: name.cloned(), counts, undeclared }
 }
 
-/// `domain blocks, 4 actions, 5 predicates, 0 types`; of what comes after, what there is.
+/// ` blocks, 4 actions, 5 predicates, 0 types`; of what comes after, what there is.
 fn summary(content: &Content) -> String {
     let name = content.name.iter().map(|name| format!(" {name}"));
     let told = content.counts.iter().enumerate().filter(|(i, (_, n))| *i < 3 || *n > 0);
     let counts = told.map(|(_, (what, n))| format!(", {}", count(*n, what)));
-    std::iter::once(content.kind.to_owned()).chain(name).chain(counts).collect()
+    name.chain(counts).collect()
 }
 
-fn report(file: &Path, content: Result<Content, FileError>) -> Report {
+fn report(file: &Path, kind: Option<&'static str>, content: Result<Content, FileError>) -> Report {
     let file = file.display().to_string();
     match content {
-        Ok(content) => Report { file, content: Some(content), error: None },
-        Err(FileError { what, line, column, hint, unsupported, .. }) => {
-            Report { file, content: None, error: Some(Problematic { message: what, line, column, hint, unsupported }) }
-        }
+        Ok(content) => Report { file, kind, content: Some(content), error: None },
+        Err(FileError { what, line, column, hint, unsupported, .. }) => Report {
+            file,
+            kind,
+            content: None,
+            error: Some(Problematic { message: what, line, column, hint, unsupported }),
+        },
     }
 }

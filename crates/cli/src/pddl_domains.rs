@@ -52,8 +52,8 @@ impl Domains {
         if beside.is_file() {
             return Ok(beside);
         }
-        let above = problem.parent().map(|folder| folder.join(".."));
-        for folder in problem.parent().map(Path::to_owned).into_iter().chain(above) {
+        let folder = problem.parent().unwrap_or(Path::new(""));
+        for folder in [folder.to_owned(), folder_above(folder)] {
             let mut named = self.in_folder(&folder).iter().filter(|(_, other)| other == name);
             match (named.next(), named.next()) {
                 (None, _) => {}
@@ -87,6 +87,13 @@ impl Domains {
             let named = files.into_iter().filter_map(|path| domain_name(&path).map(|name| (path, name)));
             named.collect()
         })
+    }
+}
+
+fn folder_above(folder: &Path) -> PathBuf {
+    match folder.parent() {
+        Some(above) if !folder.ends_with("..") => above.to_owned(),
+        _ => folder.join(".."),
     }
 }
 

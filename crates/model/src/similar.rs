@@ -2,11 +2,11 @@
 
 use crate::Symbol;
 
-/// The name among `names` that differs least from `name`: in case only, or else in at most a third of its letters.
-/// Of several, the first.
+/// The name among `names` that differs least from `name`: in case only, or else in at most a third of its letters, or
+/// in one of two. Of several, the first.
 pub fn nearest<'a>(name: &str, names: impl IntoIterator<Item = &'a Symbol>) -> Option<&'a Symbol> {
     let wanted: Vec<char> = name.to_lowercase().chars().collect();
-    let limit = (wanted.len() / 3).max(1);
+    let limit = (wanted.len() / 3).max(usize::from(wanted.len() > 1));
     names
         .into_iter()
         .filter(|candidate| candidate.as_str() != name)
@@ -53,5 +53,7 @@ mod tests {
         assert_eq!(near("fork"), None);
         assert_eq!(near("tomato"), None);
         assert_eq!(near(""), None);
+        assert_eq!(nearest("b", &["a", "B"].map(Symbol::new)).map(Symbol::as_str), Some("B"));
+        assert_eq!(nearest("b", &["a", "c"].map(Symbol::new)), None);
     }
 }

@@ -6,6 +6,7 @@ use crate::definition::refuse_other_blocks;
 use crate::effect_reader::EffectReader;
 use crate::formula_reader::{RESERVED, parts};
 use crate::names::{declared_name, lower, new_name};
+use crate::objects::one_type;
 use crate::requirements::read_requirements;
 use crate::scope::{Scope, read_variables};
 use crate::types::types_of_block;
@@ -81,10 +82,7 @@ pub(crate) fn read_objects_block(
     items.next();
     let mut objects = Vec::new();
     for written in read_typed_list(items)? {
-        if let Some(ty) = written.ty.filter(|ty| ty.has_head("either")) {
-            let error = ty.error("an object has one type, not `either` of several");
-            return Err(error.with_hint("Give the object one type.").as_unsupported());
-        }
+        written.ty.map(one_type).transpose()?;
         let name = new_name(text, written.name, written.span)?;
         let object = Typed { name, types: vocabulary.types_written(written.ty)? };
         if vocabulary.declare_object(text, kind, &object, written.span)? {

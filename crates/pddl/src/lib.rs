@@ -1,5 +1,6 @@
-//! PDDL as text: the one s-expression reader, type hierarchies, declared objects, recorded trajectories, and the
-//! writer of domains. Whatever is refused is refused with its place, and the line can be [shown](PddlError::render).
+//! PDDL as text: the one s-expression reader, domains and problems, type hierarchies, declared objects, recorded
+//! trajectories, plan files, and the writers. Whatever is refused is refused with its place, and the line can be
+//! [shown](PddlError::render).
 //!
 //! ```
 //! let text = "(:types apple banana - fruit\n        leek fruit - food)";

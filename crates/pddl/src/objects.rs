@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use typelift_model::{ROOT, Symbol};
 
-use crate::{Definition, DefinitionKind, Document, PddlError, Span, read_typed_list};
+use crate::{Definition, DefinitionKind, Document, PddlError, Sexpr, Span, read_typed_list};
 
 /// One declared object.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -55,10 +55,7 @@ pub fn read_objects(text: &str) -> Result<Declarations, PddlError> {
         let name = Symbol::from(declaration.name.to_ascii_lowercase());
         let ty = match declaration.ty {
             None => ROOT,
-            Some(ty) => ty.atom().ok_or_else(|| {
-                let hint = "Give the object one type.";
-                ty.error("an object has one type, not `either` of several").with_hint(hint).as_unsupported()
-            })?,
+            Some(ty) => one_type(ty)?,
         };
         if let Some(known) = first.insert(name.clone(), declaration.span) {
             let error = PddlError::new(text, declaration.span, format!("object `{name}` is declared twice"));
@@ -67,6 +64,17 @@ pub fn read_objects(text: &str) -> Result<Declarations, PddlError> {
         objects.push(ObjectDeclaration { name, ty: Symbol::from(ty.to_ascii_lowercase()), span: declaration.span });
     }
     Ok(Declarations { kind, objects })
+}
+
+/// The type of an object as it is written.
+///
+/// # Errors
+/// [`PddlError`] at a list.
+pub(crate) fn one_type(ty: Sexpr<'_>) -> Result<&str, PddlError> {
+    ty.atom().ok_or_else(|| {
+        let error = ty.error("an object has one type, not `either` of several");
+        error.with_hint("Give the object one type.").as_unsupported()
+    })
 }
 
 #[cfg(test)]

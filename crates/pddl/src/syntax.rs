@@ -3,8 +3,8 @@
 //!
 //! Every name is in lower case, but for types, which keep the spelling of their first declaration. Variables are
 //! written without their question mark. A value of these types that the reader returned is well-formed: what it
-//! mentions is declared, with the right number of arguments of the right types, and nothing is nested deeper than
-//! [`MOST_NESTED`].
+//! mentions is declared, with the right number of arguments, and nothing is nested deeper than [`MOST_NESTED`]. An
+//! object that is an argument is of the right type; what a variable stands for can be.
 
 use std::fmt;
 

@@ -168,7 +168,14 @@ fn initial_states_that_are_wrong() {
                 "Not every `table` is a `block`. It is declared as `(on ?x - block ?y - thing)`.",
             ],
         ),
-        ("(on a c)", ["object `c` is not declared", "c", "Did you mean `a`?"]),
+        (
+            "(on a c)",
+            [
+                "object `c` is not declared",
+                "c",
+                "Declare it in `(:objects …)` of the problem or in `(:constants …)` of the domain.",
+            ],
+        ),
         ("(on a ?b)", ["variable `?b` stands where only objects may", "?b", ""]),
         (
             "(and (dark))",
@@ -205,7 +212,14 @@ fn goals_that_are_wrong() {
     for (text, told_of) in [
         ("(:goal)", ["the goal is empty", "(:goal)", HINT]),
         ("(:goal ())", ["the goal is empty", "()", HINT]),
-        ("(:goal (on a c))", ["object `c` is not declared", "c", "Did you mean `a`?"]),
+        (
+            "(:goal (on a c))",
+            [
+                "object `c` is not declared",
+                "c",
+                "Declare it in `(:objects …)` of the problem or in `(:constants …)` of the domain.",
+            ],
+        ),
         (
             "(:goal (on a b) (dark))",
             ["there is a second condition in this goal", "(dark)", "Join several with `and …`."],
