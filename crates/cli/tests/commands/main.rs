@@ -8,6 +8,7 @@ mod bad_types;
 mod common;
 mod confirming;
 mod environments;
+mod exporting;
 mod given;
 mod help;
 mod learning;

@@ -1,0 +1,99 @@
+//! Restrictions as literals say what restrictions say: the same ground actions, the same plan, in the kitchen and where
+//! parameters may be equal and effects depend on the state.
+
+use std::collections::BTreeSet;
+
+use proptest::prelude::*;
+use typelift::agent::{Options, propose};
+use typelift::imagine;
+use typelift::model::{ActionModel, Budget, Step, Symbol, Task};
+use typelift::plan::{Ban, Exclusion, Options as PlanOptions, Outcome, Planner, Restrictions, TieOrder, ground};
+use typelift_kitchen::tasks;
+use typelift_tests::{kitchen_model, planning_task};
+
+/// Enough for every kitchen task; both searches stop at the same place.
+const EXPANSIONS: u64 = 2_000;
+
+fn steps(model: &ActionModel, task: &Task, restrictions: &Restrictions) -> BTreeSet<(Symbol, Vec<Symbol>)> {
+    let ground = ground(model, task, restrictions, TieOrder::default(), &Budget::unlimited()).expect("no limits");
+    ground.ops().map(|(id, _)| ground.step(id)).map(|step: Step| (step.action, step.objects)).collect()
+}
+
+fn outcome(model: &ActionModel, task: &Task, restrictions: &Restrictions) -> Outcome {
+    let budget = Budget::with_expansions(EXPANSIONS);
+    let mut planner = Planner::new(model, task, restrictions, &PlanOptions::default(), &budget).expect("no limits");
+    planner.next_plan(&budget)
+}
+
+/// Bans and exclusions picked by numbers: actions by their place among the ground actions, objects by theirs.
+fn restrictions(model: &ActionModel, task: &Task, bans: &[usize], excluded: &[(usize, usize)]) -> Restrictions {
+    let all: Vec<_> = steps(model, task, &Restrictions::default()).into_iter().collect();
+    let objects: Vec<&Symbol> = task.init.objects.keys().collect();
+    let mut restrictions = Restrictions::default();
+    if all.is_empty() {
+        return restrictions;
+    }
+    for pick in bans {
+        let (action, chosen) = &all[pick % all.len()];
+        let schema = model.action(action.as_str()).expect("an action of the model");
+        restrictions
+            .banned
+            .insert(Ban::of(&schema.instantiate(chosen, &task.init, &model.hierarchy).expect("it fits")));
+    }
+    for (object, call) in excluded {
+        // One number past the calls is all of them.
+        let call = model.actions.get(call % (model.actions.len() + 1)).map(|action| action.call.name.clone());
+        restrictions.excluded.insert(Exclusion { object: objects[object % objects.len()].clone(), call });
+    }
+    restrictions
+}
+
+/// The same ground actions and the same outcome.
+fn assert_same(model: &ActionModel, task: &Task, restrictions: &Restrictions) -> Outcome {
+    let (compiled, stated) = restrictions.compiled_into(model, task);
+    assert_eq!(steps(model, task, restrictions), steps(&compiled, &stated, &Restrictions::default()));
+    let found = outcome(model, task, restrictions);
+    assert_eq!(found, outcome(&compiled, &stated, &Restrictions::default()), "{restrictions:?}");
+    found
+}
+
+#[test]
+fn plans_of_the_kitchen_are_the_same() {
+    let model = kitchen_model(false);
+    let options = Options { imagine: Some(imagine::Options::default()), ..Options::default() };
+    let (mut solved, mut lost) = (0, 0);
+    for (number, task) in tasks().iter().enumerate() {
+        let asked = planning_task(&model, task, 0);
+        let nothing = Restrictions::default();
+        let proposal = propose(&model, &asked, &nothing, &options, &Budget::unlimited()).expect("a plan");
+        let Outcome::Solved(plan) = &proposal.outcome else { panic!("{}: no plan", task.name) };
+        let model = &proposal.model;
+        let mut restrictions =
+            restrictions(model, &asked, &[number * 97, number * 31 + 5], &[(number * 13 + 1, number)]);
+        let found = assert_same(model, &asked, &restrictions);
+        solved += usize::from(matches!(found, Outcome::Solved(_)));
+        // Mostly, nothing else leads to the goal than what the plan rests on.
+        let step = &plan.steps[number % plan.len()];
+        let schema = model.action(step.action.as_str()).expect("an action of the model");
+        let action = schema.instantiate(&step.objects, &asked.init, &model.hierarchy).expect("it fits");
+        restrictions.banned.insert(Ban::of(&action));
+        let found = assert_same(model, &asked, &restrictions);
+        assert_ne!(found, Outcome::Solved(plan.clone()), "{}", task.name);
+        lost += usize::from(found == Outcome::Unsolvable);
+    }
+    assert!(solved >= 12 && lost >= 6, "{solved} solved, {lost} unsolvable: the restrictions are not varied enough");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn plans_of_tiny_problems_are_the_same(
+        tiny in typelift_tests::strips::tiny(2),
+        bans in prop::collection::vec(any::<usize>(), 0..4),
+        excluded in prop::collection::vec((any::<usize>(), any::<usize>()), 0..3),
+    ) {
+        let restrictions = restrictions(&tiny.model, &tiny.task, &bans, &excluded);
+        assert_same(&tiny.model, &tiny.task, &restrictions);
+    }
+}

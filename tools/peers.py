@@ -1,0 +1,211 @@
+#!/usr/bin/env python3
+"""Has other planners solve what typelift exports, and holds their plans against typelift's own model.
+
+    python3 tools/peers.py target/release/typelift FOLDER
+
+The kitchen's demonstrations and tasks are written to FOLDER, a model is learned, and each task is exported at both
+levels; tasks that need imagination are exported with it. Each planner that is installed solves each. A plan counts if
+it is one in the problem as typelift states it (level adl), whatever level it was found at: unified-planning judges.
+
+The planners are looked for in the Python that runs this:
+
+    pip install pyperplan up-fast-downward pymimir unified-planning
+
+Prints a Markdown table of plan lengths. Exit code 1 if a planner that is installed does not solve a task.
+"""
+
+import argparse
+import json
+import subprocess
+import sys
+from importlib.util import find_spec
+from pathlib import Path
+
+LEVELS = ["strips", "adl"]
+
+MIMIR = """
+import sys, pymimir
+domain, problem, plan, seconds = sys.argv[1:]
+domain = pymimir.Domain(domain)
+problem = pymimir.Problem(domain, problem)
+found = pymimir.gbfs_lazy(problem, problem.get_initial_state(), pymimir.FFHeuristic(problem), float(seconds))
+if found.solution is None:
+    sys.exit(f"mimir: {found.status}")
+with open(plan, "w") as out:
+    for action in found.solution:
+        names = [action.get_action().get_name()] + [thing.get_name() for thing in action.get_objects()]
+        print(f"({' '.join(names)})", file=out)
+"""
+
+VALIDATE = """
+import sys, unified_planning.shortcuts as up
+from unified_planning.engines import SequentialPlanValidator
+from unified_planning.io import PDDLReader
+up.get_environment().credits_stream = None
+up.get_environment().error_used_name = False
+domain, problem, *plans = sys.argv[1:]
+reader = PDDLReader()
+problem = reader.parse_problem(domain, problem)
+for plan in plans:
+    result = SequentialPlanValidator().validate(problem, reader.parse_plan(problem, plan))
+    print(bool(result))
+"""
+
+
+def run(command, seconds, log):
+    """Whether a command ends well and in time; what it says goes to a file."""
+    try:
+        with open(log, "w") as out:
+            return subprocess.run(command, stdout=out, stderr=out, timeout=seconds).returncode == 0
+    except subprocess.TimeoutExpired:
+        return False
+
+
+def output(command):
+    """What a command prints that must not fail."""
+    ended = subprocess.run(command, capture_output=True, text=True)
+    if ended.returncode != 0:
+        sys.exit(f"{' '.join(map(str, command))}\n{ended.stderr}")
+    return ended.stdout
+
+
+def steps(plan):
+    """The steps of a plan file."""
+    return [line for line in plan.read_text().splitlines() if line.strip() and not line.startswith(";")]
+
+
+class Planner:
+    """A planner and the levels that it reads."""
+
+    def __init__(self, name, levels, solve):
+        self.name, self.levels, self.solve = name, levels, solve
+
+
+def pyperplan(seconds):
+    def solve(domain, problem, plan, log):
+        ran = run([sys.executable, "-m", "pyperplan", "-H", "hff", "-s", "gbf", domain, problem], seconds, log)
+        written = Path(f"{problem}.soln")
+        if written.exists():
+            written.rename(plan)
+        return ran
+
+    return Planner("pyperplan", ["strips"], solve)
+
+
+def fast_downward(driver, seconds):
+    def solve(domain, problem, plan, log):
+        files = ["--plan-file", plan, "--sas-file", f"{plan}.sas", domain, problem]
+        return run([sys.executable, driver, "--alias", "lama-first", *files], seconds, log)
+
+    return Planner("Fast Downward", LEVELS, solve)
+
+
+def mimir(seconds):
+    def solve(domain, problem, plan, log):
+        return run([sys.executable, "-c", MIMIR, domain, problem, plan, str(seconds)], seconds, log)
+
+    return Planner("mimir", LEVELS, solve)
+
+
+def planners(arguments):
+    """Those that are installed."""
+    found = [pyperplan(arguments.seconds)] if find_spec("pyperplan") else []
+    driver = arguments.fast_downward
+    if driver is None and find_spec("up_fast_downward"):
+        driver = Path(find_spec("up_fast_downward").origin).parent / "downward" / "fast-downward.py"
+    if driver is not None:
+        found.append(fast_downward(driver, arguments.seconds))
+    return found + ([mimir(arguments.seconds)] if find_spec("pymimir") else [])
+
+
+def natural(path):
+    """T2.10 after T2.9."""
+    return [int(part) if part.isdigit() else part for part in path.stem.replace("T", "").split(".")]
+
+
+def prepare(typelift, folder, given):
+    """The model and the tasks: those given, else the kitchen's."""
+    if given:
+        return given[0], [Path(task) for task in given[1:]]
+    kitchen, model = folder / "K", folder / "kitchen.json"
+    output([typelift, "kitchen", "export", kitchen])
+    output([typelift, "learn", kitchen / "demos", "--types", kitchen / "types.pddl", "-o", model])
+    return model, sorted((kitchen / "tasks").glob("*.json"), key=natural)
+
+
+def own_plan(typelift, model, task):
+    """typelift's own plan length, and whether it takes imagination."""
+    for imagine in [[], ["--imagine"]]:
+        ended = subprocess.run([typelift, "plan", model, task, "--json", *imagine], capture_output=True, text=True)
+        plans = json.loads(ended.stdout)["plans"] if ended.returncode == 0 else []
+        if plans:
+            return len(plans[0]["steps"]), imagine
+    return None, []
+
+
+def are_valid(domain, problem, plans):
+    """For each plan whether it is one; `None` if nobody can tell."""
+    if not find_spec("unified_planning"):
+        return [None for _ in plans]
+    return [line == "True" for line in output([sys.executable, "-c", VALIDATE, domain, problem, *plans]).split()]
+
+
+def names_come_back(folder, plans):
+    """Whether every name in the plans stands for something in the model."""
+    names = json.loads((folder / "names.json").read_text())
+    words = [step.strip("() ").lower().split() for plan in plans for step in steps(plan)]
+    return all(action in names["actions"] and all(o in names["objects"] for o in args) for action, *args in words)
+
+
+def solve_task(arguments, found, model, task):
+    """A row of the table, and how many cells of it are no valid plan."""
+    length, imagine = own_plan(arguments.typelift, model, task)
+    cells, plans = {}, {}
+    for level in LEVELS:
+        folder = arguments.folder / "exported" / f"{task.stem}-{level}"
+        output([arguments.typelift, "export", model, task, "--level", level, "-o", folder, *imagine])
+        for planner in found:
+            if level not in planner.levels:
+                continue
+            plan = folder / f"{planner.name.replace(' ', '-').lower()}.plan"
+            plan.unlink(missing_ok=True)
+            solved = planner.solve(folder / "domain.pddl", folder / "problem.pddl", plan, plan.with_suffix(".log"))
+            cells[planner.name, level] = None
+            if solved and plan.exists():
+                plans[planner.name, level] = plan
+    stated = arguments.folder / "exported" / f"{task.stem}-adl"
+    judged = are_valid(stated / "domain.pddl", stated / "problem.pddl", list(plans.values()))
+    for (key, plan), valid in zip(plans.items(), judged):
+        returned = names_come_back(plan.parent, [plan])
+        cells[key] = str(len(steps(plan))) if valid is not False and returned else "not a plan"
+    bad = sum(cell is None or not cell.isdigit() for cell in cells.values())
+    own = "–" if length is None else f"{length}{' imagined' if imagine else ''}"
+    return [task.stem, own] + [cell or "–" for cell in cells.values()], list(cells), bad
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("typelift", help="the program typelift")
+    parser.add_argument("folder", type=Path, help="where to write; made if it is not there")
+    parser.add_argument("given", nargs="*", metavar="MODEL TASK…", help="another model and tasks for it")
+    parser.add_argument("--fast-downward", metavar="FILE", help="the driver, fast-downward.py")
+    parser.add_argument("--seconds", type=float, default=60, help="the time for one task (default: %(default)s)")
+    arguments = parser.parse_args()
+    arguments.folder.mkdir(parents=True, exist_ok=True)
+    found = planners(arguments)
+    if not found:
+        sys.exit("no planner is installed for this Python")
+    model, tasks = prepare(arguments.typelift, arguments.folder, arguments.given)
+    bad = 0
+    for number, task in enumerate(tasks):
+        row, columns, missing = solve_task(arguments, found, model, task)
+        if number == 0:
+            titles = ["task", "typelift"] + [f"{name}, {level}" for name, level in columns]
+            print(f"| {' | '.join(titles)} |\n|{'---|' * len(titles)}")
+        print(f"| {' | '.join(row)} |", flush=True)
+        bad += missing
+    sys.exit(1 if bad else 0)
+
+
+if __name__ == "__main__":
+    main()
