@@ -75,7 +75,7 @@ pub enum Invalid {
         positive: bool,
     },
     /// An action that can be used in several ways can be used in none.
-    #[error("step {step}: {action} cannot be used: {}", .reasons.join("; or "))]
+    #[error("step {step}: {action} needs {}", .reasons.join("; or "))]
     NoCase {
         /// The step.
         step: usize,

@@ -60,6 +60,8 @@ fn choose<'a>(model: &'a ActionModel, state: &State, step: usize, line: &GroundC
     for schema in model.actions.iter().filter(|schema| schema.signature().name == line.name) {
         match choose_objects(model, state, step, schema, line) {
             Ok(action) => return Ok((schema, action)),
+            // What is wrong with the objects is so in every case.
+            Err(invalid @ Invalid::Objects { .. }) => return Err(invalid),
             Err(invalid) => failures.push(invalid),
         }
     }
@@ -79,7 +81,6 @@ fn choose<'a>(model: &'a ActionModel, state: &State, step: usize, line: &GroundC
 fn reason(invalid: &Invalid) -> String {
     match invalid {
         Invalid::Precondition { atom, positive, .. } => format!("{}{atom}", if *positive { "" } else { "not " }),
-        Invalid::Objects { error, .. } => error.to_string(),
         Invalid::NoCase { reasons, .. } => reasons.join("; "),
         other => other.to_string(),
     }
@@ -106,10 +107,11 @@ fn choose_objects(
             Term::Param(p) => binding[*p as usize].replace(object.clone()),
         };
         if let Some(other) = known.filter(|other| other != object) {
-            let reasons = vec![format!("{object} would have to be {other}")];
+            let reasons = vec![format!("{other} in the place of {object}")];
             return Err(Invalid::NoCase { step, action: line.name.clone(), reasons });
         }
     }
+    check_objects(model, state, step, schema, line, &binding)?;
     let open: Vec<usize> = (0..binding.len()).filter(|&p| binding[p].is_none()).collect();
     if let Some(objects) = binding.iter().cloned().collect::<Option<Vec<Symbol>>>() {
         return usable(model, state, step, schema, &objects);
@@ -118,15 +120,45 @@ fn choose_objects(
     match choice.complete(&mut binding, 0) {
         Some(objects) => usable(model, state, step, schema, &objects),
         None => {
-            let names: Vec<String> = open.iter().map(|&p| format!("?{}", schema.parameters[p].name)).collect();
             let unmet = choice.decided(&binding).find(|literal| !choice.holds(literal, &binding));
             let reason = match unmet {
                 Some(literal) => choice.written(literal, &binding),
-                None => format!("no choice of {} satisfies its precondition", names.join(", ")),
+                None => {
+                    let bound = |literal: &&Literal| literal.atom.params().all(|p| binding[p as usize].is_some());
+                    let undecided = schema.preconditions.iter().filter(|literal| !bound(literal));
+                    let together: Vec<String> = undecided.map(|literal| choice.written(literal, &binding)).collect();
+                    together.join(" and ")
+                }
             };
             Err(Invalid::NoCase { step, action: line.name.clone(), reasons: vec![reason] })
         }
     }
+}
+
+/// The objects of a line exist and have the types of their places.
+fn check_objects(
+    model: &ActionModel,
+    state: &State,
+    step: usize,
+    schema: &ActionSchema,
+    line: &GroundCall,
+    binding: &Binding,
+) -> Result<(), Invalid> {
+    for (parameter, object) in schema.parameters.iter().zip(binding) {
+        let Some(object) = object else { continue };
+        let error = match state.objects.get(object) {
+            None => InstantiateError::UnknownObject { object: object.clone() },
+            Some(ty) if !model.hierarchy.is_a(*ty, parameter.ty) => InstantiateError::Type {
+                action: line.name.clone(),
+                object: object.clone(),
+                expected: model.hierarchy.name(parameter.ty).clone(),
+                found: model.hierarchy.name(*ty).clone(),
+            },
+            Some(_) => continue,
+        };
+        return Err(Invalid::Objects { step, error });
+    }
+    Ok(())
 }
 
 fn usable(
@@ -140,7 +172,10 @@ fn usable(
         schema.instantiate(objects, state, &model.hierarchy).map_err(|error| Invalid::Objects { step, error })?;
     let unmet = action.unmet(state).next().cloned();
     match unmet {
-        Some((atom, positive)) => Err(Invalid::Precondition { step, action: schema.name.clone(), atom, positive }),
+        Some((atom, positive)) => {
+            let action = schema.signature().name;
+            Err(Invalid::Precondition { step, action, atom, positive })
+        }
         None => Ok(action),
     }
 }
@@ -192,7 +227,14 @@ impl Search<'_> {
     }
 
     fn written(&self, literal: &Literal, binding: &Binding) -> String {
-        format!("{}{}", if literal.positive { "" } else { "not " }, ground(literal, binding))
+        let atom = literal.atom.map(|term| match term {
+            Term::Const(name) => name.to_string(),
+            Term::Param(p) => match &binding[*p as usize] {
+                Some(object) => object.to_string(),
+                None => format!("?{}", self.schema.parameters[*p as usize].name),
+            },
+        });
+        format!("{}{atom}", if literal.positive { "" } else { "not " })
     }
 }
 

@@ -11,12 +11,12 @@ use typelift::model::{ActionModel, Budget, ParseConfig, Plan, Symbol};
 use typelift::world::{Dataset, Parser, Reset, Trace, TraceAction, World};
 use typelift_kitchen::{Demonstration, Kitchen, KitchenTask, demonstrations, draw, faults, hierarchy, tasks};
 
+use crate::describe::{describe, source_name};
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::limits::{Clock, parse_whole};
 use crate::narrate::told;
 use crate::plan_text::{imagined_note, plan_size};
-use crate::show::{describe, source_name};
 use crate::style::{DIM, GOOD, HEAD, IMAGINED, count, wrapped};
 
 /// The task shown of each set, and what is new about it.

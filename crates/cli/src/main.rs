@@ -5,6 +5,7 @@
 
 mod account;
 mod demo;
+mod describe;
 mod exit;
 mod export;
 mod failure;

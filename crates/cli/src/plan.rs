@@ -252,7 +252,11 @@ impl Plan {
         task: &Task,
         budget: &Budget,
     ) {
-        let why = explanation.map_or_else(|| ending(outcome).to_owned(), ToString::to_string);
+        let ending = match outcome {
+            Outcome::GaveUp if self.planner.is_given() => "the planner gave up",
+            outcome => ending(outcome),
+        };
+        let why = explanation.map_or_else(|| ending.to_owned(), ToString::to_string);
         for line in why.lines() {
             anstream::eprintln!("{BAD}no plan{BAD:#}: {line}");
         }

@@ -1,6 +1,6 @@
 //! Reads domains.
 
-use typelift_model::{Hierarchy, Symbol};
+use typelift_model::{EQUALS, Hierarchy, Symbol};
 
 use crate::definition::refuse_other_blocks;
 use crate::effect_reader::EffectReader;
@@ -106,11 +106,11 @@ fn read_signature(vocabulary: &Vocabulary, item: Sexpr<'_>, kind: &str) -> Resul
 fn read_predicates(vocabulary: &mut Vocabulary, block: Option<Sexpr<'_>>) -> Result<Vec<Signature>, PddlError> {
     let mut predicates = Vec::new();
     for item in block.into_iter().flat_map(|block| block.children().skip(1)) {
-        let signature = read_signature(vocabulary, item, "predicate")?;
         // Some domains declare what is there anyway.
-        if signature.name == "=" && signature.parameters.len() == 2 {
+        if item.has_head(EQUALS) && item.children().count() > 2 {
             continue;
         }
+        let signature = read_signature(vocabulary, item, "predicate")?;
         if RESERVED.contains(&signature.name.as_str()) {
             return Err(item.error(format!("`{}` is a word of PDDL, not the name of a predicate", signature.name)));
         }

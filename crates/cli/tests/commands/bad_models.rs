@@ -31,7 +31,7 @@ fn models_that_are_none() {
     for (title, code, command) in [
         ("a task first", 31, "plan K/tasks/T1.1.json kitchen.json"),
         ("a trace", 31, "show K/demos/cut_lettuce.jsonl"),
-        ("PDDL", 34, "plan K/types.pddl K/tasks/T1.1.json"),
+        ("PDDL", 31, "plan K/types.pddl K/tasks/T1.1.json"),
         ("a folder", 31, "plan K K/tasks/T1.1.json"),
         ("no such file", 31, "plan none.json K/tasks/T1.1.json"),
     ] {

@@ -77,7 +77,7 @@ fn files_that_are_no_tasks() {
     for (title, code, command) in [
         ("a trace", 31, "plan kitchen.json K/demos/cut_lettuce.jsonl"),
         ("a model", 31, "plan kitchen.json kitchen.json"),
-        ("PDDL", 34, "plan kitchen.json K/types.pddl"),
+        ("PDDL", 31, "plan kitchen.json K/types.pddl"),
         ("a folder", 31, "run kitchen.json K/tasks --kitchen"),
         ("no such file", 31, "run kitchen.json K/tasks/T1.1.json none.json --kitchen"),
     ] {

@@ -10,7 +10,7 @@ fn plans_of_the_kitchen() {
     insta::assert_snapshot!("plan-json", folder.run("plan kitchen.json K/tasks/T1.1.json --json"));
     insta::assert_snapshot!("plan-three", folder.run("plan kitchen.json K/tasks/T1.1.json --plans 3 -o three"));
     insta::assert_snapshot!("plan-better", folder.run("plan kitchen.json K/tasks/T1.1.json --better -o best"));
-    assert_eq!(folder.names(), ["K", "best", "kitchen.json", "t.plan", "three.1", "three.2", "three.3"]);
+    assert_eq!(folder.names(), ["K", "best", "best.1", "kitchen.json", "t.plan", "three.1", "three.2", "three.3"]);
     assert!(folder.read("three.1") == folder.read("best"));
 }
 

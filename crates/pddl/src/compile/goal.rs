@@ -35,7 +35,9 @@ pub(super) fn compile_goal(
     let parts = expanded(&mut Expansion::new(&block, init, fluents), normal)?;
     let literals = match goal_literals(&mut block, &parts)? {
         Some(literals) => literals,
-        None => vec![Literal::positive(Atom { predicate: inventions.predicate("goal-never", 0), args: Vec::new() })],
+        None => {
+            vec![Literal::positive(Atom { predicate: inventions.predicate("unsatisfiable-goal", 0), args: Vec::new() })]
+        }
     };
     let mut compiled = Goal::default();
     for literal in literals {

@@ -36,7 +36,7 @@ fn a_goal_that_can_never_hold_is_an_atom_that_never_does() {
         and([is("wet"), or([is("road home home"), is("road depot depot")])]),
         exists("p - place", is("road ?p ?p")),
     ] {
-        assert_eq!(goal(never), ("goal-never-1()".to_owned(), Vec::new()));
+        assert_eq!(goal(never), ("unsatisfiable-goal-1()".to_owned(), Vec::new()));
     }
 }
 

@@ -1,0 +1,170 @@
+//! Actions and axioms in words.
+
+use std::collections::BTreeMap;
+
+use typelift::model::{
+    ActionModel, ActionSchema, Axiom, Cost, Effect, Hierarchy, LiftedAtom, Literal, Parameter, Provenance, Source,
+    Symbol, Term, describe_replacements, schema_name,
+};
+
+use crate::style::{DIM, HEAD, count, wrapped};
+
+/// An action in words: parameters, what the environment is told, preconditions, effects, evidence.
+pub(crate) fn describe(action: &ActionSchema, model: &ActionModel, in_full: bool) -> String {
+    let h = &model.hierarchy;
+    let mut text = format!("{HEAD}{}{HEAD:#}  {}\n", action.name, headline(action, model));
+    let parameters: Vec<String> = action.parameters.iter().map(|p| format!("?{} - {}", p.name, h.name(p.ty))).collect();
+    row(&mut text, "parameters", &parameters);
+    let written = Written { parameters: action.parameters.iter().collect() };
+    let args: Vec<String> = action.call.args.iter().map(|term| written.term(term)).collect();
+    row(&mut text, "call", &[format!("{}({})", action.call.name, args.join(", "))]);
+    let mut needs: Vec<String> = action.preconditions.iter().map(|l| written.literal(l)).collect();
+    // Of learned actions all parameters differ.
+    if action.provenance == Provenance::Given {
+        let term = |i: u32| written.term(&Term::Param(i));
+        needs.extend(action.distinct.iter().map(|&(a, b)| format!("{}≠{}", term(a), term(b))));
+    }
+    row(&mut text, "needs", &needs);
+    for (label, adds) in [("adds", true), ("deletes", false)] {
+        let effects = action.effects.iter().filter(|e| e.literal.positive == adds);
+        let (plain, other): (Vec<&Effect>, Vec<&Effect>) = effects.partition(|effect| effect.is_unconditional());
+        let atoms = plain.into_iter().map(|e| written.literal(&Literal::positive(e.literal.atom.clone())));
+        row(&mut text, label, &atoms.collect::<Vec<_>>());
+        for effect in other {
+            row(&mut text, label, &conditional(effect, action, h));
+        }
+    }
+    if action.cost != Cost::UNIT {
+        let fixed = (action.cost.fixed > 0 || action.cost.functions.is_empty()).then(|| action.cost.fixed.to_string());
+        let functions = action.cost.functions.iter().map(|f| written.atom(f));
+        row(&mut text, "costs", &[fixed.into_iter().chain(functions).collect::<Vec<_>>().join(" + ")]);
+    }
+    let sources = action.provenance.sources();
+    let rests: Vec<String> =
+        sources.iter().map(|s| format!("{} {}", source_name(s, model), support(s, model))).collect();
+    if sources.len() > 1 {
+        row(&mut text, "merged", &rests);
+        row(&mut text, "because", &because(action, model));
+    }
+    if in_full {
+        for source in sources {
+            let witnesses = model.evidence.clusters.get(&source.cluster).map(|c| &c.witnesses);
+            let places = witnesses.into_iter().flatten().map(|w| format!("{} step {}", w.file, w.step));
+            let places: Vec<String> = places.collect();
+            row(&mut text, "seen", &[format!("{}: {}", source_name(source, model), places.join(", "))]);
+        }
+    }
+    text
+}
+
+/// Lifted things with the names of their parameters.
+struct Written<'a> {
+    parameters: Vec<&'a Parameter>,
+}
+
+impl Written<'_> {
+    fn term(&self, term: &Term) -> String {
+        match term {
+            Term::Param(i) => format!("?{}", self.parameters[*i as usize].name),
+            Term::Const(name) => name.to_string(),
+        }
+    }
+
+    fn atom(&self, atom: &LiftedAtom) -> String {
+        let args: Vec<String> = atom.args.iter().map(|term| self.term(term)).collect();
+        match args.as_slice() {
+            [a, b] if atom.is_equality() => format!("{a}={b}"),
+            _ => format!("{}({})", atom.predicate, args.join(",")),
+        }
+    }
+
+    fn literal(&self, literal: &Literal) -> String {
+        format!("{}{}", if literal.positive { "" } else { "not " }, self.atom(&literal.atom))
+    }
+}
+
+/// `p(?x) for all ?x - t if q(?x) r(?x)`, in words.
+fn conditional(effect: &Effect, action: &ActionSchema, hierarchy: &Hierarchy) -> Vec<String> {
+    let written = Written { parameters: action.parameters.iter().chain(&effect.parameters).collect() };
+    let mut words = vec![written.atom(&effect.literal.atom)];
+    if !effect.parameters.is_empty() {
+        words.push("for all".to_owned());
+        words.extend(effect.parameters.iter().map(|p| format!("?{} - {}", p.name, hierarchy.name(p.ty))));
+    }
+    if !effect.condition.is_empty() {
+        words.push("if".to_owned());
+        words.extend(effect.condition.iter().map(|literal| written.literal(literal)));
+    }
+    words
+}
+
+/// How a derived predicate follows, in words.
+pub(crate) fn describe_axiom(axiom: &Axiom, model: &ActionModel) -> String {
+    let written = Written { parameters: axiom.parameters.iter().collect() };
+    let mut text = format!("{HEAD}{}{HEAD:#}  derived\n", written.atom(&axiom.head));
+    let of_type = |p: &Parameter| format!("?{} - {}", p.name, model.hierarchy.name(p.ty));
+    row(&mut text, "for all", &axiom.parameters.iter().map(of_type).collect::<Vec<_>>());
+    row(&mut text, "if", &axiom.body.iter().map(|literal| written.literal(literal)).collect::<Vec<_>>());
+    text
+}
+
+/// A labelled line; nothing if there are no words.
+fn row(text: &mut String, label: &str, words: &[String]) {
+    if words.is_empty() {
+        return;
+    }
+    let body = wrapped(words.iter().map(String::as_str), 14, 80);
+    text.push_str(&format!("  {DIM}{label:<12}{DIM:#}{body}\n"));
+}
+
+/// Where an action comes from, in one line.
+pub(crate) fn headline(action: &ActionSchema, model: &ActionModel) -> String {
+    let observations = count(model.observations(action), "observation");
+    match &action.provenance {
+        Provenance::Given => "given".to_owned(),
+        Provenance::Demonstrated(_) => observations,
+        Provenance::Generalized(sources) => {
+            format!("{observations} of {}", count(sources.len() as u64, "individual action"))
+        }
+        Provenance::Imagined { from, replaced, goal, .. } => format!(
+            "imagined for {goal}: {}, from {from}, {observations}",
+            describe_replacements(replaced, &model.hierarchy)
+        ),
+        Provenance::Substituted { from, replaced, following, .. } => format!(
+            "follows {following}: {}, from {from}, {observations}",
+            describe_replacements(replaced, &model.hierarchy)
+        ),
+    }
+}
+
+/// The name that an individual action over this cluster has.
+pub(crate) fn source_name(source: &Source, model: &ActionModel) -> String {
+    let key = &source.cluster;
+    let is_actor = |name: &Symbol| model.hierarchy.id(name.as_str()).is_some_and(|ty| model.is_actor(ty));
+    schema_name(&key.action, key.types.iter().map(|name| (name, is_actor(name))))
+}
+
+fn support(source: &Source, model: &ActionModel) -> u64 {
+    model.evidence.clusters.get(&source.cluster).map_or(0, |cluster| cluster.count)
+}
+
+/// Why individual actions were merged: the same effect, and where their types meet.
+fn because(action: &ActionSchema, model: &ActionModel) -> Vec<String> {
+    let mut reasons = vec!["all have this effect;".to_owned()];
+    for (i, parameter) in action.parameters.iter().enumerate() {
+        let mut met: BTreeMap<&Symbol, ()> = BTreeMap::new();
+        for source in action.provenance.sources() {
+            if let Some(own) = source.map.iter().position(|&p| p as usize == i) {
+                met.insert(&source.cluster.types[own], ());
+            }
+        }
+        if met.len() > 1 {
+            let names: Vec<&str> = met.keys().map(|name| name.as_str()).collect();
+            reasons.push(format!("{} meet in {};", names.join(", "), model.hierarchy.name(parameter.ty)));
+        }
+    }
+    if let Some(last) = reasons.last_mut() {
+        last.pop();
+    }
+    reasons
+}
