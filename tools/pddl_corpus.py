@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Reads every PDDL file of two Python packages with Fast Downward's translator and with typelift, and compares.
 
-    pip install up-fast-downward amlgym pddlgym
+    pip install fast-downward-translate amlgym pddlgym
     python tools/pddl_corpus.py amlgym pddlgym --typelift target/release/typelift
 
-Prints a Markdown table; with --list, also each file on which the two disagree. Exit code 1 if there is one that no
-reason is given for. Writes no file.
+Prints a Markdown table; with --list, also each file that one of the two refuses, with the reasons. Exit code 1 if they
+disagree on a file. Writes no file.
 """
 
 import argparse
@@ -115,7 +115,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("packages", nargs="+", help="folders, or names of installed packages")
     parser.add_argument("--typelift", default="typelift", help="the program")
-    parser.add_argument("--list", action="store_true", help="name each file on which the two disagree")
+    parser.add_argument("--list", action="store_true", help="name each file that one of the two refuses")
     arguments = parser.parse_args()
     print("| package | files | read by both | refused by both | read by typelift only | read by Fast Downward only |")
     print("|---|---:|---:|---:|---:|---:|")

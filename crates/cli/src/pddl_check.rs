@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use typelift::model::Symbol;
 use typelift::pddl::{
-    Definition, DefinitionKind, Document, Domain, PddlError, Problem, Trajectory, read_plan, read_problem,
+    Definition, DefinitionKind, Document, Domain, PddlError, Problem, Sexpr, Trajectory, read_plan, read_problem,
     read_trajectory, required_by_domain, required_by_problem, undeclared_requirements,
 };
 use typelift::world::{FileError, read_text};
@@ -125,7 +125,7 @@ fn kind_of(file: &Path, domains: &mut Domains) -> Result<Kind, FileError> {
     let mut kind = || -> Result<Kind, PddlError> {
         let document = Document::read(&text)?;
         let root = document.only_root()?;
-        if root.has_head(":trajectory") || root.children().next().is_some_and(|first| first.is_list()) {
+        if root.has_head(":trajectory") || root.children().next().is_some_and(Sexpr::is_list) {
             return Ok(Kind::Trajectory);
         }
         let Some(definition) = Definition::read(root)? else {

@@ -44,8 +44,13 @@ impl Domains {
     }
 
     fn find(&mut self, problem: &Path, name: &str) -> Result<PathBuf, FileError> {
-        let named = self.given.iter().filter(|(_, given)| given == name);
-        if let Some((path, _)) = named.max_by_key(|(path, _)| path.parent() == problem.parent()) {
+        let nearness = |domain: &Path| {
+            let folder = domain.parent().filter(|folder| problem.starts_with(folder));
+            folder.map(|folder| folder.components().count())
+        };
+        // Of several, the first of the nearest.
+        let named = self.given.iter().rev().filter(|(_, given)| given == name);
+        if let Some((path, _)) = named.max_by_key(|(path, _)| nearness(path)) {
             return Ok(path.clone());
         }
         let beside = problem.with_file_name("domain.pddl");

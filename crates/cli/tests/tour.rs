@@ -145,6 +145,11 @@ fn reproduction() {
 }
 
 #[test]
+fn pddl() {
+    tour("docs/pddl.md");
+}
+
+#[test]
 fn your_robot() {
     if python_is_here() {
         tour("docs/your-robot.md");

@@ -2,38 +2,10 @@
 
 use crate::common::Folder;
 
-/// Roads with lengths; a van drives where a road leads, unless it is closed or the van is out of fuel; whoever has
-/// friends anywhere fills up.
-pub(crate) const ROADS: &str = "\
-(define (domain roads)
-  (:requirements :adl :action-costs)
-  (:types van place - object garage - place)
-  (:constants home - garage)
-  (:predicates (at ?v - van ?p - place) (road ?a ?b - place) (closed ?p - place) (fuel ?v - van)
-               (friend ?p - place) (visited ?p - place))
-  (:functions (total-cost) - number (length ?a ?b - place) - number)
-  (:action Drive
-    :parameters (?v - van ?a ?b - place)
-    :precondition (and (at ?v ?a) (or (road ?a ?b) (road ?b ?a)) (not (closed ?b)) (fuel ?v) (not (= ?a ?b)))
-    :effect (and (not (at ?v ?a)) (at ?v ?b) (visited ?b) (not (fuel ?v)) (increase (total-cost) (length ?a ?b))))
-  (:action fill-up
-    :parameters (?v - van)
-    :precondition (exists (?p - place) (and (at ?v ?p) (or (friend ?p) (= ?p home))))
-    :effect (and (fuel ?v) (increase (total-cost) 2)))
-  (:action open-all
-    :parameters ()
-    :precondition (forall (?v - van) (not (fuel ?v)))
-    :effect (and (forall (?p - place) (when (visited ?p) (not (closed ?p)))) (increase (total-cost) 1))))
-";
+/// Roads with lengths, and a tour of them.
+pub(crate) const ROADS: &str = include_str!("../../../../examples/roads/domain.pddl");
 
-pub(crate) const TOUR: &str = "\
-(define (problem tour) (:domain roads)
-  (:objects v - van inn mill - place)
-  (:init (at v home) (road home inn) (road inn mill) (friend inn) (= (total-cost) 0)
-         (= (length home inn) 5) (= (length inn home) 5) (= (length inn mill) 7) (= (length mill inn) 7))
-  (:goal (and (forall (?p - place) (or (visited ?p) (= ?p home))) (not (fuel v))))
-  (:metric minimize (total-cost)))
-";
+pub(crate) const TOUR: &str = include_str!("../../../../examples/roads/tour.pddl");
 
 pub(crate) fn roads() -> Folder {
     let folder = Folder::new();

@@ -104,6 +104,8 @@ fn where_the_domain_is_found() {
     folder.write("problems/domain.pddl", DOMAIN.replace("clear", "free"));
     transcript.add("beside it, but another one", &folder.run(command));
     transcript.add("among the files", &folder.run("pddl check problems/p.pddl again.pddl ferry.pddl -q"));
+    let command = "pddl check above.pddl problems/domain.pddl again.pddl problems/p.pddl -q";
+    transcript.add("several among the files: the nearest", &folder.run(command));
     insta::assert_snapshot!(transcript.0);
 }
 

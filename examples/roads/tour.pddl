@@ -1,0 +1,6 @@
+(define (problem tour) (:domain roads)
+  (:objects v - van inn mill - place)
+  (:init (at v home) (road home inn) (road inn mill) (friend inn) (= (total-cost) 0)
+         (= (length home inn) 5) (= (length inn home) 5) (= (length inn mill) 7) (= (length mill inn) 7))
+  (:goal (and (forall (?p - place) (or (visited ?p) (= ?p home))) (not (fuel v))))
+  (:metric minimize (total-cost)))
