@@ -6,20 +6,35 @@
 #![deny(missing_docs)]
 
 mod attempt;
+mod csv;
+mod demonstrations;
 mod error;
+mod faults;
 mod figure;
 mod learned;
 mod limits;
 mod published;
 mod run_log;
 mod runner;
+mod statistics;
+mod table;
 mod variant;
 
 pub use attempt::{Attempt, Setting, attempt, attempt_in, ending_word};
+pub use csv::Csv;
+pub use demonstrations::{
+    DemonstrationsOptions, DemonstrationsResult, Gain, Size, Subset, SubsetRecord, SubsetRun, demonstrations_experiment,
+};
 pub use error::LabError;
+pub use faults::{
+    FaultRecord, FaultRow, FaultRun, FaultScenario, FaultsOptions, FaultsResult, Outcome, fault_scenarios,
+    faults_experiment,
+};
 pub use learned::{dataset_of, kitchen_model, learned_from};
 pub use limits::{Limits, Stopper};
 pub use published::{Demonstrations, Learning, Published, PublishedCell, Table, published};
 pub use run_log::{FILE_NAME, FORMAT, Header, RunLog};
 pub use runner::{Conduct, Experiment, Progress, carry_out};
+pub use statistics::{mean_and_sd, median};
+pub use table::{Cell, QUICK, TableOptions, TableRecord, TableResult, TableRun, Verdict, table};
 pub use variant::{Variant, paper_options};
