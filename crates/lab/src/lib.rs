@@ -1,4 +1,25 @@
 //! The laboratory: every experiment of the paper, run again, and its numbers beside the published ones.
+//!
+//! An experiment is a list of runs that do not depend on each other ([`Experiment`]). [`carry_out`] carries them out
+//! in parallel and logs each as it finishes, so that a run that was once finished is never repeated. What is then
+//! computed from the records, tables and figures, is a pure function of them.
 #![deny(missing_docs)]
 
+mod attempt;
+mod error;
 mod figure;
+mod learned;
+mod limits;
+mod published;
+mod run_log;
+mod runner;
+mod variant;
+
+pub use attempt::{Attempt, Setting, attempt, attempt_in, ending_word};
+pub use error::LabError;
+pub use learned::{dataset_of, kitchen_model, learned_from};
+pub use limits::{Limits, Stopper};
+pub use published::{Demonstrations, Learning, Published, PublishedCell, Table, published};
+pub use run_log::{FILE_NAME, FORMAT, Header, RunLog};
+pub use runner::{Conduct, Experiment, Progress, carry_out};
+pub use variant::{Variant, paper_options};
