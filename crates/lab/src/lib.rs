@@ -6,8 +6,12 @@
 #![deny(missing_docs)]
 
 mod attempt;
+mod csv;
 mod error;
-mod figure;
+pub mod figure;
+mod growth;
+mod hierarchy;
+mod json;
 mod learned;
 mod limits;
 mod published;
@@ -17,6 +21,8 @@ mod variant;
 
 pub use attempt::{Attempt, Setting, attempt, attempt_in, ending_word};
 pub use error::LabError;
+pub use growth::{Allowance, End, Growth, GrowthResult, Measure, Measurement, Point, Series, SeriesFit, measure};
+pub use hierarchy::{ParameterRow, TypeHierarchy, TypeRow};
 pub use learned::{dataset_of, kitchen_model, learned_from};
 pub use limits::{Limits, Stopper};
 pub use published::{Demonstrations, Learning, Published, PublishedCell, Table, published};

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 /// What the classes look like, light first; `N` of `fN` (filled) and `lN` (drawn) is a colour of Okabe and Ito's
 /// palette. Plain colours rather than variables, so that programs other than browsers show the light figure.
-const STYLE: &str = "\
+pub(crate) const STYLE: &str = "\
 .fig text{font-family:system-ui,'Segoe UI',Roboto,'DejaVu Sans',sans-serif;font-size:12px;fill:#1b1b1b}\
 .fig .small{font-size:11px}.fig .strong{font-weight:600}.fig .mute{fill:#5c5c5c}\
 .fig .mono{font-family:ui-monospace,'DejaVu Sans Mono',monospace;font-size:11px}\
