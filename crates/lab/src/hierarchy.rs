@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use typelift::model::{ActionModel, Hierarchy, Symbol, TypeId};
 use typelift::world::{FileError, write_file};
 
-use crate::csv::csv;
+use crate::csv::Csv;
 use crate::figure::{Branch, Edge, matrix, tree};
 use crate::learned::kitchen_model;
 
@@ -116,19 +116,22 @@ impl TypeHierarchy {
 
     /// The types as CSV.
     pub fn types_csv(&self) -> String {
-        let rows = self.types.iter().map(|row| {
+        let mut csv = Csv::new(&["type", "parent", "depth", "seen"]);
+        for row in &self.types {
             let parent = row.parent.clone().unwrap_or_default();
-            vec![row.name.clone(), parent, row.depth.to_string(), row.seen.to_string()]
-        });
-        csv(&["type", "parent", "depth", "seen"], rows)
+            csv.row([row.name.clone(), parent, row.depth.to_string(), row.seen.to_string()]);
+        }
+        csv.into_text()
     }
 
     /// The parameters as CSV.
     pub fn parameters_csv(&self) -> String {
-        let rows = self.parameters.iter().map(|p| {
-            vec![p.action.clone(), p.parameter.clone(), p.ty.clone(), p.observed.join(" "), p.risen().to_string()]
-        });
-        csv(&["action", "parameter", "type", "observed", "risen"], rows)
+        let mut csv = Csv::new(&["action", "parameter", "type", "observed", "risen"]);
+        for p in &self.parameters {
+            let (observed, risen) = (p.observed.join(" "), p.risen().to_string());
+            csv.row([p.action.clone(), p.parameter.clone(), p.ty.clone(), observed, risen]);
+        }
+        csv.into_text()
     }
 
     /// Writes everything to a folder that is there; the files' names come back.

@@ -7,7 +7,9 @@
 
 mod attempt;
 mod csv;
+mod demonstrations;
 mod error;
+mod faults;
 pub mod figure;
 mod growth;
 mod hierarchy;
@@ -15,12 +17,23 @@ mod json;
 mod learned;
 mod limits;
 mod published;
+pub mod report;
 mod run_log;
 mod runner;
+mod statistics;
+mod table;
 mod variant;
 
 pub use attempt::{Attempt, Setting, attempt, attempt_in, ending_word};
+pub use csv::Csv;
+pub use demonstrations::{
+    DemonstrationsOptions, DemonstrationsResult, Gain, Size, Subset, SubsetRecord, SubsetRun, demonstrations_experiment,
+};
 pub use error::LabError;
+pub use faults::{
+    FaultRecord, FaultRow, FaultRun, FaultScenario, FaultsOptions, FaultsResult, Outcome, fault_scenarios,
+    faults_experiment,
+};
 pub use growth::{Allowance, End, Growth, GrowthResult, Measure, Measurement, Point, Series, SeriesFit, measure};
 pub use hierarchy::{ParameterRow, TypeHierarchy, TypeRow};
 pub use learned::{dataset_of, kitchen_model, learned_from};
@@ -28,4 +41,6 @@ pub use limits::{Limits, Stopper};
 pub use published::{Demonstrations, Learning, Published, PublishedCell, Table, published};
 pub use run_log::{FILE_NAME, FORMAT, Header, RunLog};
 pub use runner::{Conduct, Experiment, Progress, carry_out};
+pub use statistics::{mean_and_sd, median};
+pub use table::{Cell, QUICK, TableOptions, TableRecord, TableResult, TableRun, Verdict, table};
 pub use variant::{Variant, paper_options};

@@ -299,7 +299,8 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         with_two_runs(folder.path());
         let other = Header { typelift: "0.0.9".to_owned(), ..header() };
-        assert_eq!(error(folder.path(), other), "1: these runs are of typelift 0.1.0, and this is 0.0.9");
+        let version = env!("CARGO_PKG_VERSION");
+        assert_eq!(error(folder.path(), other), format!("1: these runs are of typelift {version}, and this is 0.0.9"));
         let other = Header::new("dreaming", json!({"most": 3}));
         assert_eq!(error(folder.path(), other), "1: these runs are of the experiment `counting`, not of `dreaming`");
         let other = Header::new("counting", json!({"most": 4, "least": 1}));

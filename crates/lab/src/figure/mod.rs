@@ -12,7 +12,7 @@ mod tree;
 mod violin;
 
 pub use hierarchy::{Edge, matrix};
-pub(crate) use svg::{STYLE, escape};
 pub use scaling::{Fit, LogLog, PowerPoint, PowerSeries, fit_power_law, log_log};
+pub(crate) use svg::{STYLE, escape};
 pub use tree::{Branch, tree};
-pub use violin::{BANDWIDTH, Column, Violins, median, violin, violins};
+pub use violin::{BANDWIDTH, Column, Violins, violin, violins};

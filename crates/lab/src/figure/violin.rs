@@ -5,6 +5,7 @@
 
 use super::axis::{Frame, Scale};
 use super::svg::{Anchor, Svg};
+use crate::statistics::median;
 
 /// The standard deviation of the kernel, as a fraction of all tasks: a little more than one task of 24.
 pub const BANDWIDTH: f64 = 0.05;
@@ -31,18 +32,6 @@ pub struct Violins {
     pub title: String,
     /// From left to right.
     pub columns: Vec<Column>,
-}
-
-/// The middle of the values, the mean of the two middle ones of an even number; `None` of none.
-pub fn median(values: &[f64]) -> Option<f64> {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let middle = sorted.len() / 2;
-    match sorted.len() {
-        0 => None,
-        n if n % 2 == 1 => Some(sorted[middle]),
-        _ => Some(f64::midpoint(sorted[middle - 1], sorted[middle])),
-    }
 }
 
 /// One panel as a figure; `unit` names what is a fraction of what, as `fraction of 24 tasks solved`.
@@ -86,7 +75,7 @@ fn draw(svg: &mut Svg, panel: &Violins, corner: (f64, f64), titles: (&str, &str)
         svg.text("", (middle, frame.bottom + 16.0), Anchor::Middle, &column.label);
         let count = format!("n={}", column.values.len());
         svg.text("small mute", (middle, frame.bottom + 30.0), Anchor::Middle, &count);
-        let Some(median) = median(&column.values) else { continue };
+        let Some(median) = median(column.values.iter().copied()) else { continue };
         svg.open(&format!("{}: median {median:.3} of {} values", column.label, column.values.len()));
         let outline = outline(&column.values, middle, width * 0.44, scale);
         svg.polygon(&format!("f{colour} soft"), &outline);
@@ -131,13 +120,6 @@ mod tests {
             column("8", &[24]),
         ];
         Violins { title: title.to_owned(), columns }
-    }
-
-    #[test]
-    fn medians() {
-        assert_eq!(median(&[]), None);
-        assert_eq!(median(&[0.5, 0.1, 0.9]), Some(0.5));
-        assert_eq!(median(&[0.5, 0.125, 0.875, 0.25]), Some(0.375));
     }
 
     #[test]

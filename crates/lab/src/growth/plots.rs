@@ -6,7 +6,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use typelift::world::{FileError, write_file};
 
-use crate::csv::csv;
+use crate::csv::{Csv, optional};
 use crate::figure::{LogLog, PowerPoint, PowerSeries, fit_power_law, log_log};
 
 use super::measurement::{End, Measurement, Point, Series};
@@ -89,6 +89,21 @@ const MODEL: Quantity = Quantity {
     of: |m| Some(m.model_bytes? as f64 / MEBI),
 };
 
+const COLUMNS: [&str; 12] = [
+    "series",
+    "size",
+    "end",
+    "seconds",
+    "peak_bytes",
+    "ground_actions",
+    "expansions",
+    "search_bytes",
+    "steps",
+    "actions",
+    "individual_actions",
+    "model_bytes",
+];
+
 /// A figure: its file, its heading, the series in it with their names, the horizontal axis, the quantity.
 struct Plot(&'static str, &'static str, &'static [(Series, &'static str)], &'static str, Quantity);
 
@@ -162,44 +177,31 @@ impl GrowthResult {
 
     /// Everything measured as CSV.
     pub fn csv(&self) -> String {
-        let whole = |n: Option<u64>| n.map(|n| n.to_string()).unwrap_or_default();
-        let rows = self.points.iter().map(|Measured { point, measurement: m }| {
+        let mut csv = Csv::new(&COLUMNS);
+        for Measured { point, measurement: m } in &self.points {
             let end = match m.end {
                 End::Finished => "finished",
                 End::Time => "time",
                 End::Memory => "memory",
                 End::NoPlan => "no_plan",
             };
-            let mut row = vec![point.series.name().to_owned(), point.size.to_string(), end.to_owned()];
-            row.push(format!("{:.6}", m.seconds));
-            row.extend([m.peak_bytes, m.ground_actions, m.expansions, m.search_bytes, m.steps].map(whole));
-            row.extend([m.actions, m.individual_actions, m.model_bytes].map(whole));
-            row
-        });
-        let header = [
-            "series",
-            "size",
-            "end",
-            "seconds",
-            "peak_bytes",
-            "ground_actions",
-            "expansions",
-            "search_bytes",
-            "steps",
-            "actions",
-            "individual_actions",
-            "model_bytes",
-        ];
-        csv(&header, rows)
+            let first =
+                [point.series.name().to_owned(), point.size.to_string(), end.to_owned(), format!("{:.6}", m.seconds)];
+            let planned = [m.peak_bytes, m.ground_actions, m.expansions, m.search_bytes, m.steps];
+            let learned = [m.actions, m.individual_actions, m.model_bytes];
+            csv.row(first.into_iter().chain(planned.into_iter().chain(learned).map(optional)));
+        }
+        csv.into_text()
     }
 
     /// The fits as CSV.
     pub fn fits_csv(&self) -> String {
-        let rows = self.fits.iter().map(|fit| {
+        let mut csv = Csv::new(&["series", "quantity", "exponent", "r_squared", "points"]);
+        for fit in &self.fits {
             let [exponent, r_squared] = [fit.exponent, fit.r_squared].map(|n| format!("{n:.3}"));
-            vec![fit.series.name().to_owned(), fit.quantity.clone(), exponent, r_squared, fit.points.to_string()]
-        });
-        csv(&["series", "quantity", "exponent", "r_squared", "points"], rows)
+            csv.row([fit.series.name().to_owned(), fit.quantity.clone(), exponent, r_squared, fit.points.to_string()]);
+        }
+        csv.into_text()
     }
 
     /// Writes everything to a folder that is there; the files' names come back.

@@ -65,7 +65,9 @@ fn finding(id: &str, results: &Results) -> Option<Finding> {
         }
         "broken" | "exception" | "repeat" => of_faults(id, faults.as_ref()?),
         "more-demonstrations" | "jump" | "complete" => of_demonstrations(id, demonstrations.as_ref()?),
-        _ => of_learning(id, table.as_ref()?).or_else(|| of_sets(id, table.as_ref()?)).or_else(|| of_all(id, table.as_ref()?)),
+        _ => of_learning(id, table.as_ref()?)
+            .or_else(|| of_sets(id, table.as_ref()?))
+            .or_else(|| of_all(id, table.as_ref()?)),
     }
 }
 
@@ -83,8 +85,7 @@ fn of_learning(id: &str, table: &Table) -> Option<Finding> {
 impl Table {
     /// The cells of a set of tasks, as `T2`, and a variant; nothing unless all were run.
     fn set(&self, set: &str, variant: Variant) -> Option<Vec<&Cell>> {
-        let cells: Vec<&Cell> =
-            self.cells.iter().filter(|c| c.variant == variant && c.task.starts_with(set)).collect();
+        let cells: Vec<&Cell> = self.cells.iter().filter(|c| c.variant == variant && c.task.starts_with(set)).collect();
         (cells.len() == if set == "T" { TASKS.1 } else { TASKS.0 }).then_some(cells)
     }
 
@@ -150,9 +151,15 @@ fn of_sets(id: &str, table: &Table) -> Option<Finding> {
             Some(Finding { ours: format!("individual+imagined up to {most}"), held: most > 1.0 })
         }
         "s5-cost" => {
-            let of = |variant| Some((table.mean("T5", variant, |c| c.seconds_mean)?, table.mean("T5", variant, |c| c.proposals)?));
+            let of = |variant| {
+                Some((table.mean("T5", variant, |c| c.seconds_mean)?, table.mean("T5", variant, |c| c.proposals)?))
+            };
             let ((g, g_p), (ii, ii_p)) = (of(Generalized)?, of(IndividualImagined)?);
-            let ours = format!("generalized {:.1} ms, {g_p} proposals; individual+imagined {:.1} ms, {ii_p}", g * 1e3, ii * 1e3);
+            let ours = format!(
+                "generalized {:.1} ms, {g_p} proposals; individual+imagined {:.1} ms, {ii_p}",
+                g * 1e3,
+                ii * 1e3
+            );
             Some(Finding { ours, held: g < ii && g_p < ii_p })
         }
         _ => None,
@@ -180,7 +187,10 @@ fn of_all(id: &str, table: &Table) -> Option<Finding> {
         "time" => {
             let times: Option<Vec<f64>> = best.iter().map(|cell| cell.seconds_mean).collect();
             let longest = times?.into_iter().fold(0.0, f64::max);
-            return Some(Finding { ours: format!("at most {:.1} ms on average", longest * 1e3), held: longest < 120.0 });
+            return Some(Finding {
+                ours: format!("at most {:.1} ms on average", longest * 1e3),
+                held: longest < 120.0,
+            });
         }
         _ => return None,
     };
@@ -189,7 +199,8 @@ fn of_all(id: &str, table: &Table) -> Option<Finding> {
 
 fn of_demonstrations(id: &str, demonstrations: &Demonstrations) -> Option<Finding> {
     let of_best = demonstrations.variants.iter().find(|v| v.variant == GeneralizedImagined)?;
-    let sizes: Vec<_> = (2..=8).map(|n| of_best.sizes.iter().find(|size| size.demonstrations == n)).collect::<Option<_>>()?;
+    let sizes: Vec<_> =
+        (2..=8).map(|n| of_best.sizes.iter().find(|size| size.demonstrations == n)).collect::<Option<_>>()?;
     let medians: Vec<f64> = sizes.iter().map(|size| size.solved_median).collect();
     let list = |numbers: &[f64]| numbers.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
     match id {
@@ -205,7 +216,8 @@ fn of_demonstrations(id: &str, demonstrations: &Demonstrations) -> Option<Findin
         "jump" => {
             let steps: Vec<f64> = medians.windows(2).map(|pair| pair[1] - pair[0]).collect();
             let biggest = (0..steps.len()).max_by(|&a, &b| steps[a].total_cmp(&steps[b]).then(b.cmp(&a)))?;
-            let ours = format!("from {} to {}: {} to {}", biggest + 2, biggest + 3, medians[biggest], medians[biggest + 1]);
+            let ours =
+                format!("from {} to {}: {} to {}", biggest + 2, biggest + 3, medians[biggest], medians[biggest + 1]);
             Some(Finding { ours, held: biggest == 2 })
         }
         "complete" => {
@@ -230,5 +242,6 @@ fn of_faults(id: &str, faults: &Faults) -> Option<Finding> {
     let scenarios: Vec<&Scenario> = faults.scenarios.iter().filter(mine).collect();
     let solved = scenarios.iter().filter(|scenario| scenario.solved == faults.runs).count();
     let count = scenarios.len();
-    (count > 0).then(|| Finding { ours: format!("{solved} of {count} scenarios with a way left"), held: solved == count })
+    (count > 0)
+        .then(|| Finding { ours: format!("{solved} of {count} scenarios with a way left"), held: solved == count })
 }

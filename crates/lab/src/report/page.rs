@@ -95,7 +95,10 @@ fn machine(environment: &Environment, results: &Results) -> String {
         ("system", system.clone()),
         ("seeds", seeds.join("; ")),
     ];
-    let rows: String = rows.iter().map(|(name, value)| format!("<dt>{name}</dt><dd>{}</dd>\n", escape(value))).collect();
-    format!("<section id=\"environment\">\n<h2>Environment</h2>\n<p class=\"mute\">Of this page; times were measured where the \
-             experiments were run.</p>\n<dl>\n{rows}</dl>\n</section>\n")
+    let rows: String =
+        rows.iter().map(|(name, value)| format!("<dt>{name}</dt><dd>{}</dd>\n", escape(value))).collect();
+    format!(
+        "<section id=\"environment\">\n<h2>Environment</h2>\n<p class=\"mute\">Of this page; times were measured where the \
+             experiments were run.</p>\n<dl>\n{rows}</dl>\n</section>\n"
+    )
 }

@@ -30,7 +30,11 @@ fn cell_text(cell: &Cell) -> String {
         None => "-".to_owned(),
     };
     let ours = if cell.solved == 0 { "-".to_owned() } else { shown(cell.proposals, cell.plan_length) };
-    let some = if cell.solved == 0 || cell.is_solved() { String::new() } else { format!(", {} of {} runs", cell.solved, cell.runs) };
+    let some = if cell.solved == 0 || cell.is_solved() {
+        String::new()
+    } else {
+        format!(", {} of {} runs", cell.solved, cell.runs)
+    };
     let paper = cell.paper.as_ref();
     if cell.is_as_published() {
         ours

@@ -1,0 +1,115 @@
+//! What came of a task, and which known mistakes were made again.
+
+use std::collections::BTreeSet;
+
+use serde::{Deserialize, Serialize};
+use typelift::agent::{Account, Ending};
+use typelift::model::{GroundCall, Plan};
+use typelift::plan::Exclusion;
+use typelift::world::{Acted, Reset, Scene, World, WorldError};
+use typelift_kitchen::Kitchen;
+
+use crate::attempt::{Attempt, ending_word};
+
+/// What came of a task.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Outcome {
+    /// How it ended.
+    pub ending: String,
+    /// Why there is no plan, if there is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub why: Option<String>,
+    /// Plans proposed.
+    pub proposals: u64,
+    /// Actions executed, retries included.
+    pub actions: u64,
+    /// The length of the plan that succeeded.
+    pub plan_length: Option<usize>,
+    /// What was excluded, and from which actions if not from all.
+    pub excluded: Vec<String>,
+    /// The imagined actions of the plan that succeeded.
+    pub imagined: Vec<String>,
+    /// Actions that failed.
+    pub failed: Vec<String>,
+    /// Whether exclusions were lifted, since nothing else was left.
+    pub lifted: bool,
+    /// Whether actions were used although some of their effects held already, since nothing else was left.
+    pub relaxed: bool,
+}
+
+impl Outcome {
+    /// Whether the goal was seen to hold.
+    pub fn solved(&self) -> bool {
+        self.plan_length.is_some()
+    }
+}
+
+pub(super) fn outcome(account: &Account) -> Outcome {
+    let plan = account.plan.as_ref().filter(|_| account.solved());
+    let imagined = |plan: &Plan| -> BTreeSet<String> {
+        plan.steps.iter().filter(|step| step.imagined.is_some()).map(|step| step.action.to_string()).collect()
+    };
+    let why = match &account.ending {
+        Ending::NoPlan(explanation) => explanation.to_string().lines().next().map(str::to_owned),
+        _ => None,
+    };
+    let excluded: BTreeSet<String> = account.failures.iter().flat_map(|f| &f.excluded).map(exclusion).collect();
+    Outcome {
+        ending: ending_word(&account.ending).to_owned(),
+        why,
+        proposals: account.proposals,
+        actions: account.actions,
+        plan_length: plan.map(Plan::len),
+        excluded: excluded.into_iter().collect(),
+        imagined: plan.map(imagined).unwrap_or_default().into_iter().collect(),
+        failed: account.failures.iter().map(|failure| failure.call.to_string()).collect(),
+        lifted: account.lifted,
+        relaxed: account.relaxed,
+    }
+}
+
+fn exclusion(exclusion: &Exclusion) -> String {
+    match &exclusion.call {
+        None => exclusion.object.to_string(),
+        Some(call) => format!("{} from {call}", exclusion.object),
+    }
+}
+
+/// The actions told in the later task that failed in the first, or that a thing excluded then takes part in although
+/// exclusions were not lifted.
+pub(super) fn repeated(first: &Attempt, later: &Attempt, told: &[GroundCall]) -> Vec<String> {
+    let failed = |call: &GroundCall| first.account.failures.iter().any(|failure| failure.call == *call);
+    let excluded = |call: &GroundCall| {
+        first.experience.exclusions().any(|(exclusion, _)| {
+            call.args.contains(&exclusion.object) && exclusion.call.as_ref().is_none_or(|name| *name == call.name)
+        })
+    };
+    let known = told.iter().filter(|call| failed(call) || (!later.account.lifted && excluded(call)));
+    known.map(ToString::to_string).collect()
+}
+
+/// A kitchen that writes down what it is told.
+#[derive(Debug, Default)]
+pub(super) struct Listening {
+    kitchen: Kitchen,
+    pub(super) told: Vec<GroundCall>,
+}
+
+impl World for Listening {
+    fn name(&self) -> String {
+        self.kitchen.name()
+    }
+
+    fn reset(&mut self, reset: &Reset) -> Result<Scene, WorldError> {
+        self.kitchen.reset(reset)
+    }
+
+    fn observe(&mut self) -> Result<Scene, WorldError> {
+        self.kitchen.observe()
+    }
+
+    fn act(&mut self, call: &GroundCall) -> Result<Acted, WorldError> {
+        self.told.push(call.clone());
+        self.kitchen.act(call)
+    }
+}
