@@ -10,10 +10,14 @@ mod csv;
 mod demonstrations;
 mod error;
 mod faults;
-mod figure;
+pub mod figure;
+mod growth;
+mod hierarchy;
+mod json;
 mod learned;
 mod limits;
 mod published;
+pub mod report;
 mod run_log;
 mod runner;
 mod statistics;
@@ -30,6 +34,8 @@ pub use faults::{
     FaultRecord, FaultRow, FaultRun, FaultScenario, FaultsOptions, FaultsResult, Outcome, fault_scenarios,
     faults_experiment,
 };
+pub use growth::{Allowance, End, Growth, GrowthResult, Measure, Measurement, Point, Series, SeriesFit, measure};
+pub use hierarchy::{ParameterRow, TypeHierarchy, TypeRow};
 pub use learned::{dataset_of, kitchen_model, learned_from};
 pub use limits::{Limits, Stopper};
 pub use published::{Demonstrations, Learning, Published, PublishedCell, Table, published};

@@ -103,6 +103,7 @@ impl DemonstrationsResult {
                 json!({
                     "demonstrations": size.size,
                     "subsets": size.solved.len(),
+                    "solved": size.solved,
                     "solved_min": min,
                     "solved_median": size.median(),
                     "solved_max": max,
