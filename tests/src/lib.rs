@@ -1,5 +1,6 @@
 //! What the tests that cross rooms share; the tests themselves are in `tests/tests`.
 
+pub mod readers;
 pub mod seen;
 pub mod strips;
 mod worlds;

@@ -31,6 +31,7 @@ mod run;
 mod show;
 mod style;
 mod validate;
+mod watchdog;
 
 use std::process::ExitCode;
 
