@@ -1,0 +1,150 @@
+//! What is measured, and what came of it.
+
+use std::fmt;
+use std::str::FromStr;
+
+use serde::{Deserialize, Serialize};
+
+/// What grows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Series {
+    /// Objects of a kitchen with one of each tool and one plate.
+    Storeroom,
+    /// Objects of a kitchen in which tools and plates grow with them.
+    Kitchens,
+    /// Foods that the goal asks for, in one kitchen.
+    Goals,
+    /// Transitions learned from.
+    Transitions,
+}
+
+impl Series {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Storeroom, Self::Kitchens, Self::Goals, Self::Transitions];
+
+    /// Its word.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Storeroom => "storeroom",
+            Self::Kitchens => "kitchens",
+            Self::Goals => "goals",
+            Self::Transitions => "transitions",
+        }
+    }
+
+    /// The series of this word.
+    pub fn parse(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|series| series.name() == name)
+    }
+}
+
+/// One size of one series: `storeroom 320`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub struct Point {
+    /// What grows.
+    pub series: Series,
+    /// How many there are of it.
+    pub size: u64,
+}
+
+impl fmt::Display for Point {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {}", self.series.name(), self.size)
+    }
+}
+
+impl FromStr for Point {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let words = text.split_once([' ', ':']);
+        let point =
+            words.and_then(|(series, size)| Some(Self { series: Series::parse(series)?, size: size.parse().ok()? }));
+        point.ok_or_else(|| format!("`{text}` is no series with a size, as `storeroom:320` is"))
+    }
+}
+
+/// How a measurement ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum End {
+    /// With what was to be found.
+    Finished,
+    /// The time allowed was used up.
+    Time,
+    /// The memory allowed was used up.
+    Memory,
+    /// With no plan: a defect, since there is one.
+    NoPlan,
+}
+
+/// What came of measuring one point; what does not apply or was not reached is left out.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Measurement {
+    /// How it ended.
+    pub end: End,
+    /// Seconds of planning, or of learning.
+    pub seconds: f64,
+    /// The most memory that the process held, in bytes, the program itself included.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub peak_bytes: Option<u64>,
+    /// Ground actions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ground_actions: Option<u64>,
+    /// Nodes expanded.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub expansions: Option<u64>,
+    /// Bytes held by the search, by its own count.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub search_bytes: Option<u64>,
+    /// Steps of the plan.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub steps: Option<u64>,
+    /// Actions learned.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub actions: Option<u64>,
+    /// Individual actions before generalization.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub individual_actions: Option<u64>,
+    /// The seconds of learning that grew with each transition.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub observing_seconds: Option<f64>,
+    /// The size of the model's file, its evidence included.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub model_bytes: Option<u64>,
+}
+
+impl Measurement {
+    /// With nothing but how it ended and what it took.
+    pub fn new(end: End, seconds: f64) -> Self {
+        Self {
+            end,
+            seconds,
+            peak_bytes: None,
+            ground_actions: None,
+            expansions: None,
+            search_bytes: None,
+            steps: None,
+            actions: None,
+            individual_actions: None,
+            observing_seconds: None,
+            model_bytes: None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_are_read_as_they_are_written() {
+        let point = Point { series: Series::Goals, size: 12 };
+        assert_eq!(point.to_string().parse(), Ok(point));
+        assert_eq!("goals:12".parse(), Ok(point));
+        for wrong in ["", "goals", "goals:x", "shelves:3"] {
+            assert!(wrong.parse::<Point>().is_err(), "{wrong}");
+        }
+    }
+}

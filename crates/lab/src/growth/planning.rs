@@ -1,0 +1,72 @@
+//! Planning one task in a large kitchen, measured.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use typelift::agent::{Options, ProposeError, propose};
+use typelift::imagine;
+use typelift::model::{ActionModel, Budget, Stop, Task};
+use typelift::plan::{Cut, Outcome, Restrictions};
+
+use super::measurement::{End, Measurement};
+
+/// What is left to one measurement.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Allowance {
+    /// Seconds.
+    pub seconds: f64,
+    /// Bytes, by the planner's own count of ground actions and nodes.
+    pub bytes: u64,
+}
+
+/// What is measured several times is measured for at most so many seconds, and so often.
+const REPEAT: (f64, usize) = (0.5, 5);
+
+/// Plans the task as the agent would, with imagination. The shortest of a few times is kept, since whatever else the
+/// machine does only makes it longer.
+pub(crate) fn measure(model: &ActionModel, task: &Task, allowance: Allowance) -> Measurement {
+    let begun = Instant::now();
+    let mut best = once(model, task, allowance);
+    for _ in 1..REPEAT.1 {
+        if best.end != End::Finished || begun.elapsed().as_secs_f64() > REPEAT.0 {
+            break;
+        }
+        let next = once(model, task, allowance);
+        if next.seconds < best.seconds {
+            best = next;
+        }
+    }
+    best.peak_bytes = super::memory::peak_bytes();
+    best
+}
+
+fn once(model: &ActionModel, task: &Task, allowance: Allowance) -> Measurement {
+    let limit = Duration::try_from_secs_f64(allowance.seconds).unwrap_or(Duration::MAX);
+    let begun = Instant::now();
+    let stop = move || (begun.elapsed() >= limit).then_some(Stop::Time);
+    let budget = Budget { expansions: None, bytes: Some(allowance.bytes), stop: Some(Arc::new(stop)) };
+    let options = Options { imagine: Some(imagine::Options::default()), ..Options::default() };
+    let proposal = propose(model, task, &Restrictions::default(), &options, &budget);
+    let seconds = begun.elapsed().as_secs_f64();
+    let (end, report, steps) = match proposal {
+        Ok(proposal) => {
+            let (end, steps) = match &proposal.outcome {
+                Outcome::Solved(plan) => (End::Finished, Some(plan.len())),
+                Outcome::OutOfMemory => (End::Memory, None),
+                Outcome::OutOfTime => (End::Time, None),
+                _ => (End::NoPlan, None),
+            };
+            (end, Some(proposal.report()), steps)
+        }
+        Err(ProposeError::Cut(Cut::OutOfMemory)) => (End::Memory, None, None),
+        Err(ProposeError::Cut(Cut::Stopped(_))) => (End::Time, None, None),
+        Err(_) => (End::NoPlan, None, None),
+    };
+    Measurement {
+        ground_actions: report.map(|r| r.ground_actions),
+        expansions: report.map(|r| r.expansions),
+        search_bytes: report.map(|r| r.bytes),
+        steps: steps.map(|steps| steps as u64),
+        ..Measurement::new(end, seconds)
+    }
+}
