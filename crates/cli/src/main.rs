@@ -4,6 +4,7 @@
 //! exit code, in [`exit`].
 
 mod account;
+mod columns;
 mod demo;
 mod describe;
 mod exit;
@@ -12,6 +13,11 @@ mod failure;
 mod files;
 mod goal_check;
 mod kitchen;
+mod lab;
+mod lab_demonstrations;
+mod lab_faults;
+mod lab_progress;
+mod lab_table;
 mod learn;
 mod limits;
 mod narrate;
@@ -57,6 +63,7 @@ enum Command {
     Validate(validate::Validate),
     Pddl(pddl::Pddl),
     Kitchen(kitchen::Kitchen),
+    Lab(lab::Lab),
 }
 
 fn main() -> ExitCode {
@@ -80,6 +87,7 @@ fn main() -> ExitCode {
         Command::Validate(validate) => validate.run(),
         Command::Pddl(pddl) => pddl.run(quiet),
         Command::Kitchen(kitchen) => kitchen.run(quiet),
+        Command::Lab(lab) => lab.run(clock, quiet),
     };
     ended.unwrap_or_else(|failure: Failure| failure.report()).into()
 }

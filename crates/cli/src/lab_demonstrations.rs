@@ -1,0 +1,109 @@
+//! `typelift lab demonstrations`.
+
+use std::io::Write;
+
+use typelift_lab::{
+    DemonstrationsOptions, DemonstrationsResult, Subset, Variant, demonstrations_experiment, published,
+};
+
+use crate::columns::Columns;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::lab::{LabLimits, LabOptions, warn};
+use crate::limits::{Clock, parse_whole};
+use crate::style::{HEAD, wrapped};
+
+/// A model from every subset of 2 to 8 demonstrations, tested on all 24 tasks
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  typelift lab demonstrations --variant generalized+imagined -o D
+  typelift lab demonstrations --quick -o Q
+
+Writes demonstrations.csv (a row a subset), sizes.csv, gains.csv,
+demonstrations.json and demonstrations.md. Nothing in them depends on the
+machine, unless --time-limit ended a search.")]
+pub(crate) struct LabDemonstrations {
+    #[command(flatten)]
+    options: LabOptions,
+    /// Only this variant; may be repeated
+    #[arg(long, value_name = "NAME", value_parser = parse_variant)]
+    variant: Vec<Variant>,
+    /// The seed of the rooms
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse_whole, allow_negative_numbers = true)]
+    seed: u64,
+    #[command(flatten)]
+    limits: LabLimits,
+}
+
+fn parse_variant(name: &str) -> Result<Variant, String> {
+    Variant::parse(name).ok_or_else(|| format!("there are {}", Variant::ALL.map(Variant::name).join(", ")))
+}
+
+impl LabDemonstrations {
+    pub(crate) fn run(&self, clock: Clock, quiet: bool) -> Result<Exit, Failure> {
+        let default = DemonstrationsOptions::default();
+        let chosen = |variant: &Variant| self.variant.is_empty() || self.variant.contains(variant);
+        let options = DemonstrationsOptions {
+            variants: default.variants.into_iter().filter(chosen).collect(),
+            seed: self.seed,
+            limits: self.limits.or(default.limits),
+            quick: self.options.quick,
+        };
+        let files = "demonstrations.csv, sizes.csv, gains.csv, demonstrations.json and demonstrations.md";
+        let result =
+            self.options.carry_out(clock, quiet, files, |conduct| demonstrations_experiment(&options, conduct))?;
+        let mut out = anstream::stdout().lock();
+        if self.options.json {
+            writeln!(out, "{:#}", result.json())?;
+        } else {
+            print(&mut out, &result)?;
+        }
+        warn(result.out_of_time(), result.records.values().any(|record| !record.solved.is_empty()));
+        Ok(Exit::Success)
+    }
+}
+
+fn print(out: &mut impl Write, result: &DemonstrationsResult) -> Result<(), Failure> {
+    let DemonstrationsOptions { seed, limits, variants, .. } = &result.options;
+    writeln!(out, "Tasks solved of {}, by the number of demonstrations learned from. Seed {seed},", result.tasks)?;
+    writeln!(out, "{limits}.")?;
+    for variant in variants {
+        writeln!(out, "\n{HEAD}{variant}{HEAD:#}")?;
+        let mut columns = Columns::with_right(&[0, 1, 2, 3, 4, 5]);
+        columns.row(["demonstrations", "subsets", "least", "median", "most", "subsets that solve all"]);
+        for size in result.sizes(*variant) {
+            let [least, most] = [size.solved.first(), size.solved.last()].map(|end| end.copied().unwrap_or_default());
+            columns.row([
+                size.size.to_string(),
+                size.solved.len().to_string(),
+                least.to_string(),
+                size.median().to_string(),
+                most.to_string(),
+                result.complete(&size).to_string(),
+            ]);
+        }
+        write!(out, "{}", columns.text(2))?;
+        let smallest = named(&result.smallest_complete(*variant));
+        writeln!(out, "  smallest that solve all: {}", wrapped(smallest.split(' '), 4, 78))?;
+        if let Some(gain) = result.gains(*variant).first().filter(|gain| gain.pairs > 0) {
+            writeln!(
+                out,
+                "  matters most: {} {}, {:+.2} tasks on average when added",
+                gain.number, gain.title, gain.mean
+            )?;
+        }
+    }
+    let paper = published().demonstrations;
+    let ([from, to], complete) = (paper.jump, paper.complete_from);
+    writeln!(out, "\nThe paper, of generalized+imagined: a big jump from {from} to {to} demonstrations, where")?;
+    writeln!(out, "some subsets already solve every task (here those of {complete} and more would).")?;
+    Ok(())
+}
+
+/// `4,5,6,8; 1,2,3,4`.
+fn named(subsets: &[&Subset]) -> String {
+    if subsets.is_empty() {
+        return "none".to_owned();
+    }
+    subsets.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
+}

@@ -1,0 +1,110 @@
+//! `typelift lab faults`.
+
+use std::collections::BTreeSet;
+use std::io::Write;
+
+use typelift_lab::{FaultRow, FaultsOptions, FaultsResult, faults_experiment};
+
+use crate::columns::Columns;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::lab::{LabLimits, LabOptions, warn};
+use crate::limits::{Clock, parse_whole};
+use crate::style::{BAD, DIM, GOOD, HEAD, wrapped};
+
+/// Broken tools and exceptions to what was learned, with restart and without
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  typelift lab faults -o F
+  typelift lab faults --quick -o Q
+
+Every tool broken in turn, and every pair; food that not every tool cuts; a
+chopped carrot in the blender. Each is a task and a later one that knows what
+failed in the first. Writes faults.csv, faults.json and faults.md.")]
+pub(crate) struct LabFaults {
+    #[command(flatten)]
+    options: LabOptions,
+    /// Runs of each scenario, each in a room of its own; 1 with --quick
+    #[arg(long, value_name = "N", value_parser = parse_whole, allow_negative_numbers = true)]
+    runs: Option<u64>,
+    /// The seed of the first room
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse_whole, allow_negative_numbers = true)]
+    seed: u64,
+    #[command(flatten)]
+    limits: LabLimits,
+}
+
+impl LabFaults {
+    pub(crate) fn run(&self, clock: Clock, quiet: bool) -> Result<Exit, Failure> {
+        let default = FaultsOptions::default();
+        let quick = self.options.quick;
+        let options = FaultsOptions {
+            runs: self.runs.unwrap_or(if quick { 1 } else { default.runs }),
+            seed: self.seed,
+            limits: self.limits.or(default.limits),
+            quick,
+        };
+        if options.runs == 0 {
+            return Err(Failure::new(Exit::Usage, "--runs 0: nothing would be run"));
+        }
+        let files = "faults.csv, faults.json and faults.md";
+        let result = self.options.carry_out(clock, quiet, files, |conduct| faults_experiment(&options, conduct))?;
+        let mut out = anstream::stdout().lock();
+        if self.options.json {
+            writeln!(out, "{:#}", result.json())?;
+        } else {
+            print(&mut out, &result)?;
+        }
+        let outcomes = || result.records.values().flat_map(|record| [&record.first, &record.later]);
+        let out_of_time = outcomes().filter(|outcome| outcome.ending == "out of time").count();
+        warn(out_of_time, outcomes().any(typelift_lab::Outcome::solved));
+        Ok(Exit::Success)
+    }
+}
+
+fn print(out: &mut impl Write, result: &FaultsResult) -> Result<(), Failure> {
+    let FaultsOptions { runs, seed, limits, .. } = result.options;
+    writeln!(out, "Runs solved, and plans proposed; the same of a later task that knows what failed;")?;
+    writeln!(out, "known mistakes repeated. Runs of each: {runs}, rooms from seed {seed} on;")?;
+    writeln!(out, "{limits}.\n")?;
+    let rows = result.rows();
+    let mut columns = Columns::with_right(&[2, 3, 4, 5, 6]);
+    let head = ["scenario", "restart", "solved", "#p", "later", "#p", "repeated"];
+    columns.styled(head.map(|text| (text.to_owned(), HEAD)));
+    for row in &rows {
+        let name = if row.restart { row.scenario.name.clone() } else { String::new() };
+        let restart = if row.restart { "yes" } else { "no" };
+        let solved = format!("{}/{}", row.solved(), row.records.len());
+        let later = format!("{}/{}", row.later_solved(), row.records.len());
+        let plain = anstyle::Style::new();
+        columns.styled([
+            (name, HEAD),
+            (restart.to_owned(), plain),
+            (solved, if row.solved() > 0 { GOOD } else { DIM }),
+            (row.proposals().to_string(), plain),
+            (later, plain),
+            (row.later_proposals().to_string(), plain),
+            (row.repeated().to_string(), if row.repeated() > 0 { BAD } else { plain }),
+        ]);
+    }
+    write!(out, "{}", columns.text(0))?;
+    writeln!(out, "\n{HEAD}Excluded, and imagined{HEAD:#} (with restart)")?;
+    for row in rows.iter().filter(|row| row.restart && !row.excluded().is_empty()) {
+        writeln!(out, "  {}", story(row))?;
+    }
+    writeln!(out, "\n{HEAD}{}{HEAD:#}", wrapped(result.summary().split(' '), 0, 78))?;
+    Ok(())
+}
+
+/// `coconut: without cutboard_1; imagined USE-machete-food`.
+fn story(row: &FaultRow<'_>) -> String {
+    let joined = |words: BTreeSet<&str>| words.into_iter().collect::<Vec<_>>().join(", ");
+    let mut text = format!("{}: without {}", row.scenario.name, joined(row.excluded()));
+    if !row.imagined().is_empty() {
+        text += &format!("; imagined {}", joined(row.imagined()));
+    }
+    if let Some(why) = row.why() {
+        text += &format!("; then {why}");
+    }
+    wrapped(text.split(' '), 4, 78)
+}

@@ -1,0 +1,116 @@
+//! `typelift lab table`.
+
+use std::io::Write;
+
+use typelift_lab::{Cell, TableOptions, TableResult, Variant, Verdict, published, table};
+
+use crate::columns::Columns;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::lab::{LabLimits, LabOptions, warn};
+use crate::limits::{Clock, parse_whole};
+use crate::style::{BAD, DIM, GOOD, HEAD};
+
+/// Table I: 24 tasks, four variants, ours beside the paper's
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  typelift lab table -o T
+  typelift lab table --quick -o Q
+
+Writes table.csv, table.json and table.md. Planning times are the only thing in
+them that differs from run to run; --no-times leaves them out.")]
+pub(crate) struct LabTable {
+    #[command(flatten)]
+    options: LabOptions,
+    /// Runs of each cell, each in a room of its own; 1 with --quick
+    #[arg(long, value_name = "N", value_parser = parse_whole, allow_negative_numbers = true)]
+    runs: Option<u64>,
+    /// The seed of the first room
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse_whole, allow_negative_numbers = true)]
+    seed: u64,
+    /// Do not measure planning times
+    #[arg(long)]
+    no_times: bool,
+    #[command(flatten)]
+    limits: LabLimits,
+}
+
+impl LabTable {
+    pub(crate) fn run(&self, clock: Clock, quiet: bool) -> Result<Exit, Failure> {
+        let default = TableOptions::default();
+        let quick = self.options.quick;
+        let options = TableOptions {
+            runs: self.runs.unwrap_or(if quick { 1 } else { default.runs }),
+            seed: self.seed,
+            limits: self.limits.or(default.limits),
+            times: !self.no_times,
+            quick,
+        };
+        if options.runs == 0 {
+            return Err(Failure::new(Exit::Usage, "--runs 0: nothing would be run"));
+        }
+        let files = "table.csv, table.json and table.md";
+        let result = self.options.carry_out(clock, quiet, files, |conduct| table(&options, conduct))?;
+        let mut out = anstream::stdout().lock();
+        if self.options.json {
+            writeln!(out, "{:#}", result.json())?;
+        } else {
+            print(&mut out, &result)?;
+        }
+        let out_of_time = result.cells.iter().map(|cell| cell.out_of_time).sum();
+        warn(out_of_time, result.cells.iter().any(|cell| cell.solved > 0));
+        Ok(Exit::Success)
+    }
+}
+
+fn print(out: &mut impl Write, result: &TableResult) -> Result<(), Failure> {
+    let TableOptions { runs, seed, limits, times, .. } = result.options;
+    let time = if times { " and the mean planning time" } else { "" };
+    writeln!(out, "Plans proposed/length of the one that succeeded{time}; in brackets the")?;
+    writeln!(out, "paper's where ours differs; - if none succeeded. Runs of each cell: {runs}, rooms from")?;
+    writeln!(out, "seed {seed} on; {limits}.\n")?;
+    let mut columns = Columns::default();
+    let head = ["task"].into_iter().chain(Variant::ALL.map(Variant::name));
+    columns.styled(head.map(|name| (name.to_owned(), HEAD)));
+    for (task, row) in result.rows() {
+        let cells = row.iter().map(|cell| (cell_text(cell), cell_style(cell)));
+        columns.styled([(task.to_owned(), HEAD)].into_iter().chain(cells));
+    }
+    write!(out, "{}", columns.text(0))?;
+
+    let learning = published().learning;
+    writeln!(out, "\n{} transitions (the paper: {})\n", result.transitions, learning.transitions)?;
+    let mut columns = Columns::with_right(&[1, 2, 3]);
+    columns
+        .styled(["variant", "actions learned", "paper", "ground actions, median"].map(|text| (text.to_owned(), HEAD)));
+    for variant in Variant::ALL {
+        let paper = if variant.individual() { learning.individual } else { learning.generalized };
+        let (learned, ground) = (result.actions[&variant].to_string(), result.ground_actions(variant).to_string());
+        columns.row([variant.to_string(), learned, paper.to_string(), ground]);
+    }
+    writeln!(out, "{}", columns.text(0))?;
+    writeln!(out, "{HEAD}{}{HEAD:#}", result.summary())?;
+    Ok(())
+}
+
+fn cell_text(cell: &Cell) -> String {
+    let mut text = cell.text();
+    if cell.verdict() != Verdict::Equal {
+        text += &format!(" ({})", cell.published_text());
+    }
+    match cell.seconds {
+        Some((mean, _)) if mean >= 0.9995 => text += &format!(" {mean:.1} s"),
+        Some((mean, _)) => text += &format!(" {:.0} ms", mean * 1e3),
+        None => {}
+    }
+    text
+}
+
+fn cell_style(cell: &Cell) -> anstyle::Style {
+    match cell.verdict() {
+        Verdict::Equal if cell.solved == 0 => DIM,
+        Verdict::Equal => anstyle::Style::new(),
+        Verdict::Better => GOOD,
+        Verdict::Worse => BAD,
+    }
+}
