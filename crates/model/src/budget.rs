@@ -17,8 +17,8 @@ pub enum Stop {
 pub struct Budget {
     /// Nodes that one search may expand.
     pub expansions: Option<u64>,
-    /// Bytes that grounding, and then each search, may hold, by their own count of what grows without bound: ground
-    /// actions, and nodes.
+    /// Bytes that grounding and search may hold together, by their own count of what grows without bound: ground actions
+    /// and nodes.
     pub bytes: Option<u64>,
     /// Asked now and then; an answer ends the work.
     pub stop: Option<Arc<dyn Fn() -> Option<Stop> + Send + Sync>>,

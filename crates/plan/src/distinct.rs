@@ -66,9 +66,9 @@ impl<'a> Distinct<'a> {
             && a_args.eq(b_args)
     }
 
-    /// The actions, in the order in which they came.
-    pub(crate) fn into_ops(self) -> Vec<Op> {
-        self.ops
+    /// The actions, in the order in which they came, and the bytes they hold.
+    pub(crate) fn into_ops(self) -> (Vec<Op>, u64) {
+        (self.ops, self.bytes)
     }
 }
 

@@ -92,6 +92,7 @@ pub struct GroundTask {
     negative_goal_atoms: Vec<GroundAtom>,
     unreachable: Vec<GroundAtom>,
     ops_before_deduplication: usize,
+    bytes: u64,
 }
 
 /// Grounds a task: what is reachable without deletes, nothing else.
@@ -143,7 +144,7 @@ pub fn ground(
         let Some(cost) = schema.cost.of(&objects, &task.values) else { continue };
         ops.insert(resolve(op, objects, cost, &facts, touches_goal), bytes, budget)?;
     }
-    let mut ops = ops.into_ops();
+    let (mut ops, bytes) = ops.into_ops();
     let actions = ops.len();
     let mut strata = Vec::with_capacity(raw_axioms.len());
     for axiom in raw_axioms {
@@ -168,6 +169,7 @@ pub fn ground(
         negative_goal_atoms,
         unreachable,
         ops_before_deduplication,
+        bytes,
     })
 }
 
@@ -257,6 +259,11 @@ impl GroundTask {
     /// The number of ground actions.
     pub fn op_count(&self) -> usize {
         self.actions
+    }
+
+    /// The bytes that the ground actions hold, roughly.
+    pub(crate) fn bytes(&self) -> u64 {
+        self.bytes
     }
 
     /// The number of ground axioms.

@@ -180,7 +180,7 @@ impl Search {
             applicable(task, &state, &mut ops);
             for &op_id in &ops {
                 // A node that is left half expanded is expanded again: what is known already is not inserted twice.
-                if budget.bytes.is_some_and(|limit| self.report.bytes > limit) {
+                if budget.bytes.is_some_and(|limit| self.report.bytes + task.bytes() > limit) {
                     self.open.push(Reverse((0, 0, id)));
                     return Outcome::OutOfMemory;
                 }
