@@ -98,8 +98,10 @@ fn the_cheapest_plans_cost_what_others_say() {
 #[test]
 fn every_folder_has_its_line() {
     let folders = fs::read_dir(root()).expect("the folder").map(|entry| entry.expect("an entry").path());
-    let mut names: Vec<String> =
-        folders.filter(|path| path.is_dir()).map(|path| path.file_name().unwrap().to_string_lossy().into()).collect();
+    let mut names: Vec<String> = folders
+        .filter(|path| path.is_dir())
+        .map(|path| path.file_name().expect("a name").to_string_lossy().into())
+        .collect();
     names.sort();
     assert_eq!(names, expected().into_keys().collect::<Vec<_>>());
 }

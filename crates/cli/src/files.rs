@@ -12,7 +12,7 @@ use crate::failure::{Failure, NOT_AS_WRITTEN};
 /// A model as it is read: learned, or stated in PDDL.
 #[derive(Debug)]
 pub(crate) enum ModelInput {
-    Learned(ActionModel),
+    Learned(Box<ActionModel>),
     Given(Box<DomainFile>),
 }
 
@@ -39,13 +39,13 @@ pub(crate) fn read_model_input(path: &Path, types: Option<&PathBuf>) -> Result<M
     if let Some(types) = types {
         model.hierarchy = read_types(types)?.extend(&model.hierarchy)?;
     }
-    Ok(ModelInput::Learned(model))
+    Ok(ModelInput::Learned(Box::new(model)))
 }
 
 /// Reads a model file or a PDDL domain where only the model counts.
 pub(crate) fn read_model(path: &Path, types: Option<&PathBuf>) -> Result<ActionModel, Failure> {
     Ok(match read_model_input(path, types)? {
-        ModelInput::Learned(model) => model,
+        ModelInput::Learned(model) => *model,
         ModelInput::Given(domain) => domain.model,
     })
 }
@@ -53,7 +53,7 @@ pub(crate) fn read_model(path: &Path, types: Option<&PathBuf>) -> Result<ActionM
 /// What is to be done, as it is read: a task file, or a PDDL problem compiled with the model it needs.
 pub(crate) enum TaskInput {
     File(TaskFile),
-    Problem(ActionModel, Task),
+    Problem(Box<(ActionModel, Task)>),
 }
 
 impl ModelInput {
@@ -74,10 +74,7 @@ impl ModelInput {
     pub(crate) fn read_task(&self, path: &Path) -> Result<TaskInput, Failure> {
         let starts_as_pddl = is_pddl(&read_start(path)?);
         match self {
-            Self::Given(domain) if starts_as_pddl => {
-                let (model, task) = domain.read_problem(path)?;
-                Ok(TaskInput::Problem(model, task))
-            }
+            Self::Given(domain) if starts_as_pddl => Ok(TaskInput::Problem(Box::new(domain.read_problem(path)?))),
             Self::Learned(_) if starts_as_pddl => {
                 let error = FileError::new(path, "this is PDDL, and the model is a learned one");
                 let hint = "A PDDL problem needs its PDDL domain in the model's place; `typelift export` writes both.";
@@ -90,10 +87,10 @@ impl ModelInput {
     /// Reads a task that says from which state to plan: the model for it, and the task.
     pub(crate) fn read_planning_task(self, path: &Path) -> Result<(ActionModel, Task), Failure> {
         match self.read_task(path)? {
-            TaskInput::Problem(model, task) => Ok((model, task)),
+            TaskInput::Problem(problem) => Ok(*problem),
             TaskInput::File(file) => {
                 let model = match self {
-                    Self::Learned(model) => model,
+                    Self::Learned(model) => *model,
                     Self::Given(domain) => domain.model,
                 };
                 let mut parser = Parser::new(model.hierarchy.clone(), model.parse.clone());

@@ -10,7 +10,10 @@ use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::lab_demonstrations::LabDemonstrations;
 use crate::lab_faults::LabFaults;
+use crate::lab_growth::{LabGrowth, LabMeasure};
+use crate::lab_hierarchy::LabHierarchy;
 use crate::lab_progress::Bar;
+use crate::lab_report::LabReport;
 use crate::lab_table::LabTable;
 use crate::limits::{Clock, Interrupt, parse_duration, parse_whole};
 use crate::style::{WARNING, count};
@@ -34,6 +37,11 @@ enum Command {
     Table(LabTable),
     Demonstrations(LabDemonstrations),
     Faults(LabFaults),
+    Hierarchy(LabHierarchy),
+    Growth(LabGrowth),
+    Report(LabReport),
+    #[command(hide = true)]
+    Measure(LabMeasure),
 }
 
 impl Lab {
@@ -42,6 +50,10 @@ impl Lab {
             Command::Table(table) => table.run(clock, quiet),
             Command::Demonstrations(demonstrations) => demonstrations.run(clock, quiet),
             Command::Faults(faults) => faults.run(clock, quiet),
+            Command::Hierarchy(hierarchy) => hierarchy.run(quiet),
+            Command::Growth(growth) => growth.run(clock, quiet),
+            Command::Report(report) => report.run(quiet),
+            Command::Measure(measure) => measure.run(),
         }
     }
 }

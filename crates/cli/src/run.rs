@@ -132,7 +132,7 @@ impl Run {
         for path in &self.tasks {
             tasks.push(match input.read_task(path)? {
                 TaskInput::File(file) => (path, Arc::clone(&learned), self.reset(&file), Task::from(file.goal)),
-                TaskInput::Problem(model, task) => (path, Arc::new(model), self.reset_to_problem(path), task),
+                TaskInput::Problem(problem) => (path, Arc::new(problem.0), self.reset_to_problem(path), problem.1),
             });
         }
         let options = self.options()?;

@@ -73,7 +73,7 @@ fn a_time_limit_covers_reading() {
     let places = 40_000;
     (0..places).for_each(|i| write!(problem, " p{i}").expect("written"));
     problem.push_str(" - place) (:init (at p0)");
-    (1..places).for_each(|i| write!(problem, " (road p{} p{i})\n", i - 1).expect("written"));
+    (1..places).for_each(|i| writeln!(problem, " (road p{} p{i})", i - 1).expect("written"));
     problem.push_str(") (:goal (at p9)))");
     folder.write("problem.pddl", problem);
     let took = |command: &str, code: i32| {

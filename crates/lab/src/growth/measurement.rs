@@ -84,7 +84,7 @@ pub enum End {
 pub struct Measurement {
     /// How it ended.
     pub end: End,
-    /// Seconds of planning, or of learning.
+    /// Seconds of planning, or of learning, on a processor.
     pub seconds: f64,
     /// The most memory that the process held, in bytes, the program itself included.
     #[serde(default, skip_serializing_if = "Option::is_none")]

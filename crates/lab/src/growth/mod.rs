@@ -3,7 +3,7 @@
 //! | series | what grows | what stays |
 //! |---|---|---|
 //! | storeroom | objects, 32 to 10,000 | the goal (three foods), one plate, one of each tool |
-//! | kitchens | objects, 32 to 10,000 | the goal; tools and plates grow with the rest |
+//! | kitchens | objects, 32 to 1,000 | the goal; tools and plates grow with the rest |
 //! | goals | goal foods, 1 to 20 | 96 objects |
 //! | transitions | transitions learned from, 100 to 1,000,000 | rooms of the paper's size |
 //!
@@ -16,6 +16,7 @@ mod memory;
 mod planning;
 mod play;
 mod plots;
+mod processor_time;
 mod room;
 
 use std::fmt;
@@ -83,7 +84,9 @@ impl Experiment for Growth<'_> {
     }
 
     fn runs(&self) -> Vec<Point> {
-        let objects: &[u64] = if self.quick { &[32, 64, 100] } else { &[32, 100, 320, 1000, 3200, 10_000] };
+        let objects: &[u64] = if self.quick { &[32, 64, 100] } else { &[32, 64, 100, 320, 1000, 3200, 10_000] };
+        // Several tools of a kind are hard: more sizes would only be cut.
+        let kitchens: &[u64] = if self.quick { &[32] } else { &[32, 64, 100, 320, 1000] };
         let goals: &[u64] = if self.quick { &[1, 2, 3] } else { &[1, 2, 3, 4, 5, 6, 8, 10, 12, 14, 16, 18, 20] };
         let transitions: &[u64] = if self.quick {
             &[100, 200, 400]
@@ -91,7 +94,8 @@ impl Experiment for Growth<'_> {
             &[100, 320, 1000, 3200, 10_000, 32_000, 100_000, 320_000, 1_000_000]
         };
         let sizes = |series: Series| match series {
-            Series::Storeroom | Series::Kitchens => objects,
+            Series::Storeroom => objects,
+            Series::Kitchens => kitchens,
             Series::Goals => goals,
             Series::Transitions => transitions,
         };
@@ -122,7 +126,7 @@ mod tests {
 
     #[test]
     fn small_points_are_solved() {
-        for (point, steps) in [("storeroom 32", 15), ("kitchens 64", 15), ("goals 1", 5)] {
+        for (point, steps) in [("storeroom 32", 15), ("kitchens 32", 15), ("goals 1", 5)] {
             let measured = measure(point.parse().expect(point), ALLOWANCE);
             assert_eq!((measured.end, measured.steps), (End::Finished, Some(steps)), "{point}");
             assert!(measured.ground_actions > Some(50) && measured.seconds > 0.0, "{point}");
@@ -139,7 +143,7 @@ mod tests {
     #[test]
     fn the_sizes() {
         let all = |quick| Growth { quick, allowance: ALLOWANCE, measure: &|_, _, _| Ok(None) }.runs();
-        assert_eq!((all(true).len(), all(false).len()), (12, 34));
+        assert_eq!((all(true).len(), all(false).len()), (10, 34));
         assert!(all(false).contains(&Point { series: Series::Transitions, size: 1_000_000 }));
     }
 }

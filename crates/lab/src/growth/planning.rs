@@ -1,7 +1,6 @@
 //! Planning one task in a large kitchen, measured.
 
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 use typelift::agent::{Options, ProposeError, propose};
 use typelift::imagine;
@@ -9,11 +8,12 @@ use typelift::model::{ActionModel, Budget, Stop, Task};
 use typelift::plan::{Cut, Outcome, Restrictions};
 
 use super::measurement::{End, Measurement};
+use super::processor_time::Stopwatch;
 
 /// What is left to one measurement.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Allowance {
-    /// Seconds.
+    /// Seconds on a processor.
     pub seconds: f64,
     /// Bytes, by the planner's own count of ground actions and nodes.
     pub bytes: u64,
@@ -25,10 +25,10 @@ const REPEAT: (f64, usize) = (0.5, 5);
 /// Plans the task as the agent would, with imagination. The shortest of a few times is kept, since whatever else the
 /// machine does only makes it longer.
 pub(crate) fn measure(model: &ActionModel, task: &Task, allowance: Allowance) -> Measurement {
-    let begun = Instant::now();
+    let begun = Stopwatch::start();
     let mut best = once(model, task, allowance);
     for _ in 1..REPEAT.1 {
-        if best.end != End::Finished || begun.elapsed().as_secs_f64() > REPEAT.0 {
+        if best.end != End::Finished || begun.seconds() > REPEAT.0 {
             break;
         }
         let next = once(model, task, allowance);
@@ -41,13 +41,12 @@ pub(crate) fn measure(model: &ActionModel, task: &Task, allowance: Allowance) ->
 }
 
 fn once(model: &ActionModel, task: &Task, allowance: Allowance) -> Measurement {
-    let limit = Duration::try_from_secs_f64(allowance.seconds).unwrap_or(Duration::MAX);
-    let begun = Instant::now();
-    let stop = move || (begun.elapsed() >= limit).then_some(Stop::Time);
+    let begun = Stopwatch::start();
+    let stop = move || (begun.seconds() >= allowance.seconds).then_some(Stop::Time);
     let budget = Budget { expansions: None, bytes: Some(allowance.bytes), stop: Some(Arc::new(stop)) };
     let options = Options { imagine: Some(imagine::Options::default()), ..Options::default() };
     let proposal = propose(model, task, &Restrictions::default(), &options, &budget);
-    let seconds = begun.elapsed().as_secs_f64();
+    let seconds = begun.seconds();
     let (end, report, steps) = match proposal {
         Ok(proposal) => {
             let (end, steps) = match &proposal.outcome {

@@ -63,7 +63,8 @@ struct Quantity {
 
 const MEBI: f64 = 1_048_576.0;
 
-const SECONDS: Quantity = Quantity { name: "seconds", title: "time", axis: "seconds", of: |m| Some(m.seconds) };
+const SECONDS: Quantity =
+    Quantity { name: "seconds", title: "time", axis: "seconds on a processor", of: |m| Some(m.seconds) };
 const PEAK: Quantity = Quantity {
     name: "peak_bytes",
     title: "memory",

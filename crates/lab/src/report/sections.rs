@@ -137,10 +137,10 @@ fn of_hierarchy(result: &TypeHierarchy) -> String {
 
 fn of_growth(result: &GrowthResult) -> String {
     let mut html = paragraph(&format!(
-        "Each point in a process of its own; memory is the peak of its resident set, the program included. Planning is \
-         with imagination, the shortest of up to five times. A hollow mark is a point that was cut at {} s, or at {} MiB of \
-         ground actions and nodes; it is no part of a fit. Larger kitchens than the simulator's room are snapshots without \
-         geometry, in the room's proportions.",
+        "Each point in a process of its own; time is that on a processor, memory the peak of the process, the program \
+         included. Planning is with imagination, the shortest of up to five times. A hollow mark is a point that was cut at \
+         {} s, or at {} MiB of ground actions and nodes; it is no part of a fit. Larger kitchens than the simulator's room \
+         are snapshots without geometry, in the room's proportions.",
         result.seconds_allowed,
         result.bytes_allowed >> 20
     ));

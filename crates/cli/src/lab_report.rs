@@ -1,0 +1,126 @@
+//! `typelift lab report`.
+
+use std::fs::create_dir_all;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use typelift::world::{FileError, write_file};
+use typelift_lab::report::{Environment, Judged, Results, judge, report_page};
+use typelift_lab::{
+    Conduct, DemonstrationsOptions, FaultsOptions, LabError, Progress, Stopper, TableOptions, TypeHierarchy,
+    demonstrations_experiment, faults_experiment, table,
+};
+
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::lab_growth::{GrowthLimits, growth};
+use crate::lab_progress::Bar;
+use crate::limits::Interrupt;
+use crate::style::{BAD, DIM, GOOD, HEAD, wrapped};
+
+/// Everything on one page, and each of the paper's claims held against it
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  typelift lab report -o results
+  typelift lab report --quick -o Q
+
+Reads what the other experiments wrote to DIR/table, DIR/demonstrations,
+DIR/faults, DIR/hierarchy and DIR/growth, or to DIR itself, and writes
+DIR/report.html, which needs no network and no other file.")]
+pub(crate) struct LabReport {
+    /// The folder of the results and of the page; made if it is not there
+    #[arg(long, short, value_name = "DIR", value_parser = clap::builder::NonEmptyStringValueParser::new())]
+    output: String,
+    /// First run a small part of what is missing
+    #[arg(long)]
+    quick: bool,
+}
+
+impl LabReport {
+    pub(crate) fn run(&self, quiet: bool) -> Result<Exit, Failure> {
+        let folder = PathBuf::from(&self.output);
+        create_dir_all(&folder).map_err(|error| FileError::from_write(&folder, &error))?;
+        let mut results = Results::read(&folder)?;
+        if self.quick && !results.missing().is_empty() {
+            run_missing(&folder, &results.missing(), quiet)?;
+            results = Results::read(&folder)?;
+        }
+        let page = report_page(&results, &Environment::of_this_machine(), &self.output);
+        let path = folder.join("report.html");
+        write_file(&path, page.as_bytes())?;
+        print(&mut anstream::stdout().lock(), &judge(&results))?;
+        if !quiet {
+            for experiment in results.missing() {
+                let command = format!("typelift lab {experiment} -o {}/{experiment}", self.output);
+                anstream::eprintln!("not run yet: `{command}` makes it part of the report");
+            }
+            anstream::eprintln!("wrote {}", path.display());
+        }
+        Ok(Exit::Success)
+    }
+}
+
+/// Runs a small part of each missing experiment, in the folder of its name.
+fn run_missing(folder: &Path, missing: &[&str], quiet: bool) -> Result<(), Failure> {
+    let interrupt = Interrupt::install()?;
+    let stopper: Stopper = Arc::new(move || interrupt.is_set());
+    let jobs = std::thread::available_parallelism().map_or(1, usize::from);
+    for experiment in missing {
+        let own = folder.join(experiment);
+        let bar = Bar::new(quiet);
+        let progress: &dyn Progress = &bar;
+        let conduct = Conduct { folder: &own, fresh: false, jobs, stopper: Arc::clone(&stopper), progress };
+        if !quiet {
+            anstream::eprint!("{experiment}: ");
+        }
+        let ended = quick(experiment, &conduct);
+        bar.finish();
+        ended.map_err(|error| match error {
+            LabError::File(error) => error.into(),
+            LabError::Stopped { .. } => {
+                Failure::new(Exit::Interrupted, error).with_hint("The same command goes on from there.")
+            }
+            LabError::Run { .. } | LabError::Threads(_) => Failure::new(Exit::Internal, error),
+        })?;
+    }
+    Ok(())
+}
+
+fn quick(experiment: &str, conduct: &Conduct<'_>) -> Result<(), LabError> {
+    match experiment {
+        "table" => table(&TableOptions { runs: 1, quick: true, ..TableOptions::default() }, conduct).map(drop),
+        "demonstrations" => {
+            let options = DemonstrationsOptions { quick: true, ..DemonstrationsOptions::default() };
+            demonstrations_experiment(&options, conduct).map(drop)
+        }
+        "faults" => {
+            let options = FaultsOptions { runs: 1, quick: true, ..FaultsOptions::default() };
+            faults_experiment(&options, conduct).map(drop)
+        }
+        "growth" => growth(true, GrowthLimits::default(), conduct).map(drop),
+        _ => {
+            create_dir_all(conduct.folder).map_err(|error| FileError::from_write(conduct.folder, &error))?;
+            conduct.progress.begun(1, 1, 0);
+            Ok(TypeHierarchy::of_the_kitchen().write(conduct.folder).map(drop)?)
+        }
+    }
+}
+
+fn print(out: &mut impl Write, judged: &[Judged]) -> Result<(), Failure> {
+    for Judged { claim, finding } in judged {
+        let (style, word, ours) = match finding {
+            Some(finding) if finding.held => (GOOD, "held", finding.ours.as_str()),
+            Some(finding) => (BAD, "not held", finding.ours.as_str()),
+            None => (DIM, "not measured", ""),
+        };
+        writeln!(out, "{style}{word:<12}{style:#}  {}", wrapped(claim.claim.split(' '), 14, 78))?;
+        if !ours.is_empty() {
+            writeln!(out, "              {DIM}{}{DIM:#}", wrapped(ours.split(' '), 14, 78))?;
+        }
+    }
+    let measured = judged.iter().filter_map(|judged| judged.finding.as_ref());
+    let (held, count) = (measured.clone().filter(|finding| finding.held).count(), measured.count());
+    writeln!(out, "{HEAD}{held} of {count} claims that were measured held.{HEAD:#}")?;
+    Ok(())
+}
