@@ -4,8 +4,9 @@
     python3 tools/peers.py target/release/typelift FOLDER
 
 The kitchen's demonstrations and tasks are written to FOLDER, a model is learned, and each task is exported at both
-levels; tasks that need imagination are exported with it. Each planner that is installed solves each. A plan counts if
-it is one in the problem as typelift states it (level adl), whatever level it was found at: unified-planning judges.
+levels; tasks that need imagination are exported with it. Each planner that is installed solves each. Whatever level a
+plan was found at, it counts if it is one in the problem as level adl states it, by unified-planning, and in the model
+that was exported, by `typelift validate`.
 
 The planners are looked for in the Python that runs this:
 
@@ -81,13 +82,19 @@ class Planner:
         self.name, self.levels, self.solve = name, levels, solve
 
 
+# Heuristics and searches, tried in turn: on one plateau or another, each gets lost.
+PYPERPLAN = [("hff", "gbf"), ("hff", "wastar"), ("hsa", "gbf")]
+
+
 def pyperplan(seconds):
     def solve(domain, problem, plan, log):
-        ran = run([sys.executable, "-m", "pyperplan", "-H", "hff", "-s", "gbf", domain, problem], seconds, log)
         written = Path(f"{problem}.soln")
-        if written.exists():
-            written.rename(plan)
-        return ran
+        for heuristic, search in PYPERPLAN:
+            command = [sys.executable, "-m", "pyperplan", "-H", heuristic, "-s", search, domain, problem]
+            if run(command, seconds / len(PYPERPLAN), log) and written.exists():
+                written.rename(plan)
+                return True
+        return False
 
     return Planner("pyperplan", ["strips"], solve)
 
@@ -150,11 +157,10 @@ def are_valid(domain, problem, plans):
     return [line == "True" for line in output([sys.executable, "-c", VALIDATE, domain, problem, *plans]).split()]
 
 
-def names_come_back(folder, plans):
-    """Whether every name in the plans stands for something in the model."""
-    names = json.loads((folder / "names.json").read_text())
-    words = [step.strip("() ").lower().split() for plan in plans for step in steps(plan)]
-    return all(action in names["actions"] and all(o in names["objects"] for o in args) for action, *args in words)
+def come_back(typelift, model, task, plans, imagine):
+    """For each plan whether it is one in the model that was exported, by `typelift validate`."""
+    command = [typelift, "validate", model, task, "-q", *imagine]
+    return [subprocess.run([*command, plan], capture_output=True).returncode == 0 for plan in plans]
 
 
 def solve_task(arguments, found, model, task):
@@ -175,9 +181,9 @@ def solve_task(arguments, found, model, task):
                 plans[planner.name, level] = plan
     stated = arguments.folder / "exported" / f"{task.stem}-adl"
     judged = are_valid(stated / "domain.pddl", stated / "problem.pddl", list(plans.values()))
-    for (key, plan), valid in zip(plans.items(), judged):
-        returned = names_come_back(plan.parent, [plan])
-        cells[key] = str(len(steps(plan))) if valid is not False and returned else "not a plan"
+    returned = come_back(arguments.typelift, model, task, plans.values(), imagine)
+    for (key, plan), valid, back in zip(plans.items(), judged, returned):
+        cells[key] = str(len(steps(plan))) if valid is not False and back else "not a plan"
     bad = sum(cell is None or not cell.isdigit() for cell in cells.values())
     own = "–" if length is None else f"{length}{' imagined' if imagine else ''}"
     return [task.stem, own] + [cell or "–" for cell in cells.values()], list(cells), bad

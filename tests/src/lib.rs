@@ -1,5 +1,6 @@
 //! What the tests that cross rooms share; the tests themselves are in `tests/tests`.
 
+pub mod readers;
 pub mod seen;
 pub mod strips;
 mod worlds;
@@ -7,84 +8,22 @@ mod worlds;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use typelift::agent::{Account, Confirmation, Episode, Experience, Observer, Options, run};
-use typelift::imagine;
-use typelift::learn::{self, learn_dataset};
-use typelift::model::{ActionModel, ActionSchema, Budget, ParseConfig, Symbol, Task};
-use typelift::world::{Dataset, Parser, Reset, Trace, TraceAction, World};
-use typelift_kitchen::{Demonstration, Kitchen, KitchenTask, demonstrations, hierarchy};
+use typelift::agent::{Account, Options};
+use typelift::model::{ActionModel, ActionSchema, Budget, Task};
+use typelift::world::{Parser, Reset, World};
+use typelift_kitchen::{Kitchen, KitchenTask};
+use typelift_lab::{Setting, attempt};
 
+pub use typelift_lab::{Variant, dataset_of, kitchen_model, paper_options};
 pub use worlds::{Meddle, Ran, Watched, approve, run_in};
-
-/// Demonstrations of the kitchen as a dataset.
-///
-/// # Panics
-/// If the simulator's scenes are not states.
-pub fn dataset_of(demonstrations: &[Demonstration]) -> Dataset {
-    let mut parser = Parser::new(hierarchy(), ParseConfig::default());
-    let trace = |d: &Demonstration| Trace {
-        file: Some(Symbol::from(format!("{}.jsonl", d.name))),
-        task: d.task.clone(),
-        goal: d.goal.clone(),
-        states: d.scenes.iter().map(|scene| parser.parse(scene).expect("a state")).collect(),
-        actions: d
-            .calls
-            .iter()
-            .map(|call| TraceAction { call: call.clone(), executed: None, reason: None, time: None })
-            .collect(),
-    };
-    let traces: Vec<Trace> = demonstrations.iter().map(trace).collect();
-    Dataset::new(&parser, traces)
-}
-
-/// The model of the kitchen's eight demonstrations: generalized, or individual actions only.
-///
-/// # Panics
-/// If learning fails.
-pub fn kitchen_model(individual: bool) -> ActionModel {
-    let options = learn::Options { individual, ..learn::Options::default() };
-    learn_dataset(&dataset_of(&demonstrations(0)), &options).expect("a model").model
-}
-
-/// The four variants of the paper's evaluation: name, individual actions only, with imagination.
-pub const VARIANTS: [(&str, bool, bool); 4] = [
-    ("generalized+imagined", false, true),
-    ("generalized", false, false),
-    ("individual+imagined", true, true),
-    ("individual", true, false),
-];
-
-/// How the paper's experiments are run.
-pub fn paper_options(imagine: bool) -> Options {
-    Options { imagine: imagine.then(imagine::Options::default), restart: true, ..Options::default() }
-}
 
 /// One task in the simulator, without experience from others.
 ///
 /// # Panics
 /// If the simulator fails.
 pub fn solve(model: &ActionModel, task: &KitchenTask, seed: u64, options: &Options, budget: &Budget) -> Account {
-    solve_watched(model, task, seed, options, budget, &mut ())
-}
-
-/// The same, watched.
-///
-/// # Panics
-/// If the simulator fails.
-pub fn solve_watched(
-    model: &ActionModel,
-    task: &KitchenTask,
-    seed: u64,
-    options: &Options,
-    budget: &Budget,
-    observer: &mut dyn Observer,
-) -> Account {
-    let model = Arc::new(model.clone());
-    let mut parser = Parser::new(model.hierarchy.clone(), model.parse.clone());
-    let mut episode = Episode::new(model, task.goal.clone(), options.clone(), Experience::new(), budget.clone());
-    let reset = Reset { seed, scenario: Some(task.scenario.clone()) };
-    let mut approve = |_: &_| Confirmation::Approve;
-    run(&mut episode, &mut Kitchen::new(), &reset, &mut parser, &mut approve, observer).expect("the simulator works")
+    let done = attempt(&Arc::new(model.clone()), Setting::new(task, seed), options, budget.clone());
+    done.expect("the simulator works").account
 }
 
 /// A task of the kitchen as a planner gets it.

@@ -145,9 +145,16 @@ fn product(objects: &BTreeMap<Symbol, TypeId>, n: usize) -> Vec<Vec<Symbol>> {
     })
 }
 
-/// Every instance that types and distinctness allow, reachable or not.
+/// Every instance that types, distinctness and what nothing changes allow, reachable or not.
 pub fn all_instances(model: &ActionModel, task: &Task) -> Vec<Instance> {
     let mut instances = Vec::new();
+    let changed: BTreeSet<&Symbol> =
+        model.actions.iter().flat_map(|action| &action.effects).map(|effect| &effect.literal.atom.predicate).collect();
+    let possible = |literals: &Signed| {
+        literals
+            .iter()
+            .all(|(positive, atom)| changed.contains(&atom.predicate) || task.init.atoms.contains(atom) == *positive)
+    };
     for schema in &model.actions {
         for objects in product(&task.init.objects, schema.parameters.len()) {
             let typed = objects
@@ -165,14 +172,18 @@ pub fn all_instances(model: &ActionModel, task: &Task) -> Vec<Instance> {
                 })
             };
             let signed = |l: &Literal| (l.positive, atom(&l.atom));
+            let preconditions: Signed = schema.preconditions.iter().map(signed).collect();
+            if !possible(&preconditions) {
+                continue;
+            }
+            let effects = schema.effects.iter().map(|e| {
+                let condition: Signed = e.condition.iter().map(signed).collect();
+                (condition, e.literal.positive, atom(&e.literal.atom))
+            });
             instances.push(Instance {
                 action: schema.name.clone(),
-                preconditions: schema.preconditions.iter().map(signed).collect(),
-                effects: schema
-                    .effects
-                    .iter()
-                    .map(|e| (e.condition.iter().map(signed).collect(), e.literal.positive, atom(&e.literal.atom)))
-                    .collect(),
+                preconditions,
+                effects: effects.filter(|(condition, _, _)| possible(condition)).collect(),
                 cost: schema.cost.fixed,
                 objects,
             });

@@ -20,7 +20,7 @@ use typelift_kitchen::{KitchenTask, tasks};
 use typelift_tests::strips::{
     Cheapest, Instance, Tiny, all_instances, cheapest, reachable_atoms, reachable_instances, tiny,
 };
-use typelift_tests::{VARIANTS, kitchen_model, planning_task};
+use typelift_tests::{Variant, kitchen_model, planning_task};
 
 /// Enough for every task that is solved at all.
 const EXPANSIONS: u64 = 20_000;
@@ -52,18 +52,18 @@ fn multiset(plan: &Plan) -> BTreeMap<(Symbol, Vec<Symbol>), usize> {
 fn every_plan_of_the_kitchen_replays() {
     let models = [kitchen_model(false), kitchen_model(true)];
     let mut solved = BTreeMap::new();
-    for (variant, individual, imagines) in VARIANTS {
-        let model = &models[usize::from(individual)];
+    for variant in Variant::ALL {
+        let model = &models[usize::from(variant.individual())];
         for (task, asked) in kitchen_tasks(model) {
-            let found = proposal(model, &asked, imagines, 1);
+            let found = proposal(model, &asked, variant.imagines(), 1);
             let Outcome::Solved(plan) = &found.outcome else { continue };
             let end = check(&found.model, &asked, plan).unwrap_or_else(|e| panic!("{variant}, {}: {e}", task.name));
             assert!(end.satisfies(&task.goal));
             // Strictness only ever forbids: the plan is one of the plain model too.
             let plain = found.imagination.added_to(model);
             check(&plain, &asked, plan).unwrap_or_else(|e| panic!("{variant}, {}, plain: {e}", task.name));
-            assert!(imagines || plan.imagined_actions() == 0);
-            *solved.entry(variant).or_insert(0) += 1;
+            assert!(variant.imagines() || plan.imagined_actions() == 0);
+            *solved.entry(variant.name()).or_insert(0) += 1;
         }
     }
     assert_eq!(solved["generalized+imagined"], 24);

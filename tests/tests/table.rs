@@ -8,13 +8,15 @@
 
 use std::fs;
 use std::path::Path;
+use std::sync::Arc;
 
-use typelift::agent::{Ending, Options};
+use typelift::agent::Options;
 use typelift::imagine::{self, Guard};
 use typelift::model::{ActionModel, Budget};
 use typelift::plan::TieOrder;
 use typelift_kitchen::{KitchenTask, tasks};
-use typelift_tests::{VARIANTS, kitchen_model, paper_options, solve};
+use typelift_lab::{Conduct, TableOptions, Variant, Verdict, published, table};
+use typelift_tests::{kitchen_model, paper_options, solve};
 
 /// `#p` and `|p|`; `None` where no plan was found.
 type Cell = Option<(u64, usize)>;
@@ -23,53 +25,35 @@ const fn cell(proposals: u64, length: usize) -> Cell {
     Some((proposals, length))
 }
 
-/// The published table: task, then generalized+imagined, generalized, individual+imagined, individual.
-const PUBLISHED: [(&str, [Cell; 4]); 24] = [
-    ("T1.1", [cell(1, 5), cell(1, 5), cell(1, 5), cell(1, 5)]),
-    ("T1.2", [cell(1, 5), cell(1, 5), cell(1, 5), cell(1, 5)]),
-    ("T1.3", [cell(1, 15), cell(1, 15), cell(1, 15), cell(1, 15)]),
-    ("T1.4", [cell(1, 10), cell(1, 10), cell(1, 10), cell(1, 10)]),
-    ("T2.1", [cell(1, 5), cell(1, 5), cell(1, 8), cell(1, 8)]),
-    ("T2.2", [cell(1, 10), cell(1, 10), None, None]),
-    ("T2.3", [cell(1, 13), cell(1, 13), None, None]),
-    ("T2.4", [cell(1, 13), cell(1, 13), cell(1, 16), cell(1, 16)]),
-    ("T3.1", [cell(1, 15), cell(1, 15), None, None]),
-    ("T3.2", [cell(1, 18), cell(1, 18), None, None]),
-    ("T3.3", [cell(1, 25), cell(1, 25), None, None]),
-    ("T3.4", [cell(1, 30), cell(1, 30), None, None]),
-    ("T4.1", [cell(1, 5), None, cell(1, 5), None]),
-    ("T4.2", [cell(1, 10), None, cell(1, 10), None]),
-    ("T4.3", [cell(1, 13), None, cell(8, 15), None]),
-    ("T4.4", [cell(1, 16), None, None, None]),
-    ("T5.1", [cell(1, 5), cell(1, 5), cell(2, 5), None]),
-    ("T5.2", [cell(1, 10), cell(1, 10), cell(2, 10), None]),
-    ("T5.3", [cell(1, 10), cell(1, 10), cell(9, 10), None]),
-    ("T5.4", [cell(1, 13), cell(1, 13), cell(9, 15), None]),
-    ("T6.1", [cell(1, 18), None, None, None]),
-    ("T6.2", [cell(1, 23), None, None, None]),
-    ("T6.3", [cell(1, 28), None, None, None]),
-    ("T6.4", [cell(1, 36), None, None, None]),
-];
+/// The published cell.
+fn published_cell(task: &str, variant: Variant) -> Cell {
+    published().table.cell(task, variant).map(|cell| (cell.proposals, cell.plan_length))
+}
 
 /// Where ours differs from the published cell: task, variant, ours.
-const DIFFERENCES: [(&str, usize, Cell); 6] = [
+const DIFFERENCES: [(&str, Variant, Cell); 6] = [
     // With the published 15 of T1.3 no order of ties gives 16 here: both tasks have the same landmarks.
-    ("T2.4", 2, cell(1, 15)),
-    ("T2.4", 3, cell(1, 15)),
+    ("T2.4", Variant::IndividualImagined, cell(1, 15)),
+    ("T2.4", Variant::Individual, cell(1, 15)),
     // Proposals of individual+imagined depend on unpublished ties and rooms.
-    ("T4.3", 2, cell(2, 15)),
-    ("T5.1", 2, cell(1, 5)),
-    ("T5.3", 2, cell(2, 10)),
-    ("T5.4", 2, cell(2, 15)),
+    ("T4.3", Variant::IndividualImagined, cell(2, 15)),
+    ("T5.1", Variant::IndividualImagined, cell(1, 5)),
+    ("T5.3", Variant::IndividualImagined, cell(2, 10)),
+    ("T5.4", Variant::IndividualImagined, cell(2, 15)),
 ];
 
-const SEEDS: u64 = 5;
+/// What a cell is here.
+fn expected_cell(task: &str, variant: Variant) -> Cell {
+    let difference = DIFFERENCES.iter().find(|(of, v, _)| (*of, *v) == (task, variant));
+    difference.map_or_else(|| published_cell(task, variant), |(_, _, ours)| *ours)
+}
+
 const EXPANSIONS: u64 = 200_000;
 
-fn run(model: &ActionModel, task: &KitchenTask, seed: u64, options: &Options) -> (Cell, Ending) {
+fn run(model: &ActionModel, task: &KitchenTask, seed: u64, options: &Options) -> Cell {
     let account = solve(model, task, seed, options, &Budget::with_expansions(EXPANSIONS));
     let length = account.plan.as_ref().filter(|_| account.solved()).map(typelift::model::Plan::len);
-    (length.map(|length| (account.proposals, length)), account.ending)
+    length.map(|length| (account.proposals, length))
 }
 
 fn written(cell: Cell) -> String {
@@ -78,34 +62,28 @@ fn written(cell: Cell) -> String {
 
 #[test]
 fn every_cell() {
-    let models = [kitchen_model(false), kitchen_model(true)];
-    assert_eq!(models.each_ref().map(|model| model.actions.len()), [13, 39]);
     // Unoptimised, the searches that end only at the limit of expansions would take minutes.
-    let seeds = if cfg!(debug_assertions) { 1 } else { SEEDS };
-    let mut equal = 0;
-    let mut table = format!("| task | {} |\n|---|---|---|---|---|\n", VARIANTS.map(|(name, _, _)| name).join(" | "));
-    for (task, (name, published)) in tasks().iter().zip(PUBLISHED) {
-        assert_eq!(task.name, name);
-        let mut line = format!("| {name} |");
-        for (variant, (_, individual, imagine)) in VARIANTS.into_iter().enumerate() {
-            let difference = DIFFERENCES.iter().find(|(task, v, _)| (*task, *v) == (name, variant));
-            let expected = difference.map_or(published[variant], |(_, _, ours)| *ours);
-            for seed in 0..seeds {
-                let (found, ending) = run(&models[usize::from(individual)], task, seed, &paper_options(imagine));
-                assert_eq!(found, expected, "{name}, variant {variant}, seed {seed}: {ending:?}");
-            }
-            equal += usize::from(expected == published[variant]);
-            assert_eq!(expected.is_some(), published[variant].is_some(), "{name}, variant {variant}");
-            let beside = difference.map(|_| format!(" ({})", written(published[variant]))).unwrap_or_default();
-            line += &format!(" {}{beside} |", written(expected));
-        }
-        table += &line;
-        table.push('\n');
+    let runs = if cfg!(debug_assertions) { 1 } else { TableOptions::default().runs };
+    let options = TableOptions { runs, times: false, ..TableOptions::default() };
+    assert_eq!(options.limits.max_expansions, EXPANSIONS);
+    let folder = tempfile::tempdir().expect("a folder");
+    let never = Arc::new(|| false);
+    let conduct = Conduct { folder: folder.path(), fresh: false, jobs: 2, stopper: never, progress: &() };
+    let result = table(&options, &conduct).expect("the simulator works");
+    assert_eq!(result.transitions, 68);
+    assert_eq!(result.actions.values().copied().collect::<Vec<_>>(), [13, 13, 39, 39]);
+    assert_eq!(result.records.len() as u64, 24 * 4 * runs);
+    for (run, record) in &result.records {
+        let found = record.plan_length.map(|length| (record.proposals, length));
+        assert_eq!(found, expected_cell(&run.task, run.variant), "{run}: {}", record.ending);
+        assert_eq!(found.is_some(), published_cell(&run.task, run.variant).is_some(), "{run}");
     }
-    assert_eq!(equal, 96 - DIFFERENCES.len());
-    table += &format!("\n{equal} of 96 cells equal in #p and |p|, 96 of 96 in solved or not.\n");
-    println!("{seeds} seeds\n{table}");
-    hold_document(&table);
+    // Where ours differs it is with fewer proposals or a shorter plan.
+    let counts = [Verdict::Equal, Verdict::Better, Verdict::Worse].map(|verdict| result.count(verdict));
+    assert_eq!(counts, [96 - DIFFERENCES.len(), DIFFERENCES.len(), 0]);
+    let text = result.markdown_cells();
+    println!("{runs} runs\n{text}");
+    hold_document(&text);
 }
 
 /// The table in `docs/reproduction.md` is the one that was just computed; `UPDATE_DOCS=1` writes it there.
@@ -130,17 +108,18 @@ fn rules_switched_off() {
     let tasks = tasks();
     let changed = |options: &dyn Fn(bool) -> Options| {
         let mut cells = Vec::new();
-        for (task, (name, published)) in tasks.iter().zip(PUBLISHED) {
-            for (variant, (label, individual, imagine)) in VARIANTS.into_iter().enumerate() {
-                let difference = DIFFERENCES.iter().find(|(task, v, _)| (*task, *v) == (name, variant));
-                let usual = difference.map_or(published[variant], |(_, _, ours)| *ours);
+        for task in &tasks {
+            for variant in Variant::ALL {
+                let usual = expected_cell(&task.name, variant);
                 // The searches that end only at the limit are slow, and their cells are the same by being unsolved.
-                if variant == 2 && (usual.is_none() || name == "T4.3" || name == "T5.4") {
+                let slow = usual.is_none() || task.name == "T4.3" || task.name == "T5.4";
+                if variant == Variant::IndividualImagined && slow {
                     continue;
                 }
-                let (found, _) = run(&models[usize::from(individual)], task, 0, &options(imagine));
+                let model = &models[usize::from(variant.individual())];
+                let found = run(model, task, 0, &options(variant.imagines()));
                 if found != usual {
-                    cells.push(format!("{name} {label} {} for {}", written(found), written(usual)));
+                    cells.push(format!("{} {variant} {} for {}", task.name, written(found), written(usual)));
                 }
             }
         }

@@ -60,10 +60,15 @@ fn choose<'a>(model: &'a ActionModel, state: &State, step: usize, line: &GroundC
     for schema in model.actions.iter().filter(|schema| schema.signature().name == line.name) {
         match choose_objects(model, state, step, schema, line) {
             Ok(action) => return Ok((schema, action)),
-            // What is wrong with the objects is so in every case.
-            Err(invalid @ Invalid::Objects { .. }) => return Err(invalid),
             Err(invalid) => failures.push(invalid),
         }
+    }
+    // A case for other types of objects is no reason if there is one for these.
+    let is_of_others = |invalid: &Invalid| matches!(invalid, Invalid::Objects { .. });
+    if failures.iter().all(is_of_others) {
+        failures.truncate(1);
+    } else {
+        failures.retain(|invalid| !is_of_others(invalid));
     }
     match failures.len() {
         0 => Err(Invalid::UnknownAction { step, action: line.name.clone() }),

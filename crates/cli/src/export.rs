@@ -31,9 +31,9 @@ what the names in a plan stand for. Other planners read them, as
   fast-downward --alias lama-first lettuce/domain.pddl lettuce/problem.pddl
   pyperplan -H hff -s gbf apple/domain.pddl apple/problem.pddl")]
 pub(crate) struct Export {
-    /// The model, as `learn` wrote it
+    /// The model, as `learn` wrote it, or a PDDL domain
     model: PathBuf,
-    /// A task with the state to plan from
+    /// A task with the state to plan from, or a PDDL problem
     task: Option<PathBuf>,
     /// The language
     #[arg(long, value_enum, default_value_t = Format::Pddl)]

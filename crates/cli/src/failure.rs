@@ -4,7 +4,7 @@ use std::fmt::Display;
 use std::io;
 
 use typelift::agent::{ProposeError, RunError};
-use typelift::model::{ModelFileError, NameCollision, Stop, Symbol, nearest};
+use typelift::model::{ModelFileError, NameCollision, Stop, Symbol, nearest, printable};
 use typelift::pddl::ExportError;
 use typelift::plan::{Cut, ExternalFailure};
 use typelift::world::{FileError, WorldError};
@@ -41,9 +41,9 @@ impl Failure {
     /// Prints it, unless it is only that nobody reads on.
     pub(crate) fn report(&self) -> Exit {
         if self.exit != Exit::Success {
-            anstream::eprintln!("{ERROR}error{ERROR:#}: {}", self.message);
+            anstream::eprintln!("{ERROR}error{ERROR:#}: {}", printable_lines(&self.message));
             if let Some(hint) = &self.hint {
-                anstream::eprintln!("{HINT}hint{HINT:#}: {hint}");
+                anstream::eprintln!("{HINT}hint{HINT:#}: {}", printable_lines(hint));
             }
         }
         self.exit
@@ -131,6 +131,11 @@ impl From<RunError> for Failure {
             RunError::Propose(error) => error.into(),
         }
     }
+}
+
+/// What files and programs say is repeated, but not obeyed.
+fn printable_lines(text: &str) -> String {
+    text.split('\n').map(printable).collect::<Vec<_>>().join("\n")
 }
 
 /// The exit code of grounding that was ended.

@@ -19,9 +19,9 @@ use crate::style::{HEAD, wrapped};
   typelift lab demonstrations --variant generalized+imagined -o D
   typelift lab demonstrations --quick -o Q
 
-Writes demonstrations.csv (a row a subset), sizes.csv, gains.csv,
-demonstrations.json and demonstrations.md. Nothing in them depends on the
-machine, unless --time-limit ended a search.")]
+Writes violins.svg, demonstrations.csv (a row a subset: what the violins are made
+of), sizes.csv, gains.csv, demonstrations.json and demonstrations.md. Nothing in
+them depends on the machine, unless --time-limit ended a search.")]
 pub(crate) struct LabDemonstrations {
     #[command(flatten)]
     options: LabOptions,
@@ -49,7 +49,7 @@ impl LabDemonstrations {
             limits: self.limits.or(default.limits),
             quick: self.options.quick,
         };
-        let files = "demonstrations.csv, sizes.csv, gains.csv, demonstrations.json and demonstrations.md";
+        let files = "violins.svg, demonstrations.csv, sizes.csv, gains.csv, demonstrations.json and demonstrations.md";
         let result =
             self.options.carry_out(clock, quiet, files, |conduct| demonstrations_experiment(&options, conduct))?;
         let mut out = anstream::stdout().lock();
@@ -65,8 +65,11 @@ impl LabDemonstrations {
 
 fn print(out: &mut impl Write, result: &DemonstrationsResult) -> Result<(), Failure> {
     let DemonstrationsOptions { seed, limits, variants, .. } = &result.options;
-    writeln!(out, "Tasks solved of {}, by the number of demonstrations learned from. Seed {seed},", result.tasks)?;
-    writeln!(out, "{limits}.")?;
+    let tasks = result.tasks;
+    let legend = format!(
+        "Tasks solved of {tasks}, by the number of demonstrations learned from. Rooms of seed {seed}; {limits}."
+    );
+    writeln!(out, "{}", wrapped(legend.split(' '), 0, 78))?;
     for variant in variants {
         writeln!(out, "\n{HEAD}{variant}{HEAD:#}")?;
         let mut columns = Columns::with_right(&[0, 1, 2, 3, 4, 5]);
@@ -84,7 +87,8 @@ fn print(out: &mut impl Write, result: &DemonstrationsResult) -> Result<(), Fail
         }
         write!(out, "{}", columns.text(2))?;
         let smallest = named(&result.smallest_complete(*variant));
-        writeln!(out, "  smallest that solve all: {}", wrapped(smallest.split(' '), 4, 78))?;
+        let smallest = format!("smallest that solve all: {smallest}");
+        writeln!(out, "  {}", wrapped(smallest.split(' '), 4, 78))?;
         if let Some(gain) = result.gains(*variant).first().filter(|gain| gain.pairs > 0) {
             writeln!(
                 out,
@@ -95,8 +99,16 @@ fn print(out: &mut impl Write, result: &DemonstrationsResult) -> Result<(), Fail
     }
     let paper = published().demonstrations;
     let ([from, to], complete) = (paper.jump, paper.complete_from);
-    writeln!(out, "\nThe paper, of generalized+imagined: a big jump from {from} to {to} demonstrations, where")?;
-    writeln!(out, "some subsets already solve every task (here those of {complete} and more would).")?;
+    let said = format!(
+        "The paper, of generalized+imagined: a big jump from {from} to {to} demonstrations, and some subsets of \
+         {complete} already solve every task."
+    );
+    writeln!(
+        out,
+        "
+{}",
+        wrapped(said.split(' '), 0, 78)
+    )?;
     Ok(())
 }
 

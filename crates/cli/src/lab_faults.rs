@@ -64,9 +64,16 @@ impl LabFaults {
 
 fn print(out: &mut impl Write, result: &FaultsResult) -> Result<(), Failure> {
     let FaultsOptions { runs, seed, limits, .. } = result.options;
-    writeln!(out, "Runs solved, and plans proposed; the same of a later task that knows what failed;")?;
-    writeln!(out, "known mistakes repeated. Runs of each: {runs}, rooms from seed {seed} on;")?;
-    writeln!(out, "{limits}.\n")?;
+    let legend = format!(
+        "Runs solved, and plans proposed; the same of a later task that knows what failed; known mistakes repeated in \
+         it. Runs of each scenario: {runs}, rooms from seed {seed} on; {limits}."
+    );
+    writeln!(
+        out,
+        "{}
+",
+        wrapped(legend.split(' '), 0, 78)
+    )?;
     let rows = result.rows();
     let mut columns = Columns::with_right(&[2, 3, 4, 5, 6]);
     let head = ["scenario", "restart", "solved", "#p", "later", "#p", "repeated"];

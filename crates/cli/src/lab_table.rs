@@ -9,7 +9,7 @@ use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::lab::{LabLimits, LabOptions, warn};
 use crate::limits::{Clock, parse_whole};
-use crate::style::{BAD, DIM, GOOD, HEAD};
+use crate::style::{BAD, DIM, GOOD, HEAD, wrapped};
 
 /// Table I: 24 tasks, four variants, ours beside the paper's
 #[derive(Debug, clap::Args)]
@@ -65,10 +65,12 @@ impl LabTable {
 
 fn print(out: &mut impl Write, result: &TableResult) -> Result<(), Failure> {
     let TableOptions { runs, seed, limits, times, .. } = result.options;
-    let time = if times { " and the mean planning time" } else { "" };
-    writeln!(out, "Plans proposed/length of the one that succeeded{time}; in brackets the")?;
-    writeln!(out, "paper's where ours differs; - if none succeeded. Runs of each cell: {runs}, rooms from")?;
-    writeln!(out, "seed {seed} on; {limits}.\n")?;
+    let time = if times { ", mean planning time" } else { "" };
+    let legend = format!(
+        "#p/|p|: plans proposed until one succeeded, and its length, medians{time}; in brackets the paper's where ours \
+         differs; - if none succeeded. Runs of each cell: {runs}, rooms from seed {seed} on; {limits}."
+    );
+    writeln!(out, "{}\n", wrapped(legend.split(' '), 0, 78))?;
     let mut columns = Columns::default();
     let head = ["task"].into_iter().chain(Variant::ALL.map(Variant::name));
     columns.styled(head.map(|name| (name.to_owned(), HEAD)));

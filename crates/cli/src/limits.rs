@@ -111,6 +111,11 @@ impl Limits {
         Self { max_expansions: self.max_expansions.or(Some(expansions)), ..self }
     }
 
+    /// The time allowed, if it is limited.
+    pub(crate) fn time(self) -> Option<Duration> {
+        self.time_limit
+    }
+
     /// The budget that these limits leave, counted from the program's start.
     pub(crate) fn budget(self, clock: Clock, interrupt: &Interrupt) -> Budget {
         let interrupt = interrupt.clone();

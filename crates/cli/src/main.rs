@@ -34,6 +34,7 @@ mod run;
 mod show;
 mod style;
 mod validate;
+mod watchdog;
 
 use std::process::ExitCode;
 

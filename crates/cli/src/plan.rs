@@ -1,13 +1,14 @@
 //! `typelift plan`.
 
 use std::io::Write;
+use std::mem::ManuallyDrop;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use serde::Serialize;
 use typelift::agent::{Options, Proposal, ProposeError, propose};
 use typelift::imagine;
-use typelift::model::{ActionModel, Budget, Plan as FoundPlan, Task};
+use typelift::model::{ActionModel, Budget, Plan as FoundPlan, Stop, Task};
 use typelift::plan::{Cut, Explanation, Outcome, Restrictions};
 use typelift::world::write_file;
 
@@ -18,6 +19,7 @@ use crate::limits::{Clock, Interrupt, Limits};
 use crate::plan_text::{imagined_note, numbered_steps, plan_file, plan_size};
 use crate::planner_option::PlannerOption;
 use crate::style::{BAD, HEAD, HINT, count};
+use crate::watchdog::Watchdog;
 
 /// Where the plan for a PDDL problem is written unless the user says otherwise, as Fast Downward does.
 const DEFAULT_OUTPUT: &str = "sas_plan";
@@ -101,20 +103,25 @@ struct StepJson {
     imagined: Option<String>,
 }
 
+/// What there is when the first search has ended.
+struct Begun {
+    model: ActionModel,
+    task: Task,
+    output: Option<PathBuf>,
+    /// When all was read.
+    read: Duration,
+    proposal: Result<Proposal, Cut>,
+}
+
 impl Plan {
     pub(crate) fn run(&self, clock: Clock, quiet: bool) -> Result<Exit, Failure> {
         let interrupt = Interrupt::install()?;
         let budget = self.limits.budget(clock, &interrupt);
-        keep_inputs(self.output.as_deref(), [&self.model, &self.task].into_iter().chain(&self.types))?;
-        let input = read_model_input(&self.model, self.types.as_ref())?;
-        let default_output = input.is_given().then(|| PathBuf::from(DEFAULT_OUTPUT));
-        let output = self.output.clone().or(default_output);
-        let (model, task) = input.read_planning_task(&self.task)?;
-        let begun = clock.elapsed();
-        let options = self.options(self.imagine)?;
-        let mut proposal = match propose(&model, &task, &Restrictions::default(), &options, &budget) {
-            Err(ProposeError::Cut(cut)) => return self.cut(cut, clock.elapsed() - begun),
-            proposal => proposal?,
+        let Begun { model, task, output, read, proposal } = self.begin_watched(clock, &budget)?;
+        // Whoever waits for the answer need not wait for the memory to be freed.
+        let mut proposal = match proposal {
+            Ok(proposal) => ManuallyDrop::new(proposal),
+            Err(cut) => return say_cut(cut, self.json, clock.elapsed() - read),
         };
         let mut out = anstream::stdout().lock();
         let mut plans: Vec<FoundPlan> = Vec::new();
@@ -128,7 +135,7 @@ impl Plan {
                 self.write_plans(output.as_deref(), &plans, &proposal.model, &task)?;
             }
             if !self.json {
-                let took = clock.elapsed() - begun;
+                let took = clock.elapsed() - read;
                 if let Err(failure) = self.print(&mut out, number, &plan, &proposal, &model, took) {
                     // Nobody reads on; the file is wanted all the same.
                     self.write_plans(output.as_deref(), &plans, &proposal.model, &task)?;
@@ -150,7 +157,7 @@ impl Plan {
         let searched = matches!(last, Outcome::Unsolvable | Outcome::NoMorePlans);
         let explanation = (plans.is_empty() && searched).then(|| proposal.explain());
         if self.json {
-            let answer = answer(&last, &plans, &proposal, explanation.as_ref(), clock.elapsed() - begun);
+            let answer = answer(&last, &plans, &proposal, explanation.as_ref(), clock.elapsed() - read);
             writeln!(out, "{}", serde_json::to_string_pretty(&answer).unwrap_or_default())?;
             return Ok(exit);
         }
@@ -163,21 +170,33 @@ impl Plan {
         Ok(exit)
     }
 
-    /// Says that the search did not even begin.
-    fn cut(&self, cut: Cut, took: Duration) -> Result<Exit, Failure> {
-        let exit = cut_exit(cut);
-        let (outcome, why) = match exit {
-            Exit::OutOfMemory => ("out_of_memory", "out of memory while grounding"),
-            Exit::OutOfTime => ("out_of_time", "out of time while grounding"),
-            _ => ("stopped", "stopped while grounding"),
+    /// Reads, grounds, and searches for the first plan. A watchdog ends the program if reading takes longer than allowed;
+    /// somebody else's planner is ended by whom it was started.
+    fn begin_watched(&self, clock: Clock, budget: &Budget) -> Result<Begun, Failure> {
+        let json = self.json;
+        let limit = if self.planner.is_given() { None } else { self.limits.time() };
+        let watchdog = Watchdog::start(clock, limit, move || {
+            // There is nobody left to tell if printing fails.
+            say_cut(Cut::Stopped(Stop::Time), json, clock.elapsed()).unwrap_or(Exit::OutOfTime)
+        });
+        let begun = self.begin(clock, budget);
+        watchdog.call_off();
+        begun
+    }
+
+    fn begin(&self, clock: Clock, budget: &Budget) -> Result<Begun, Failure> {
+        keep_inputs(self.output.as_deref(), [&self.model, &self.task].into_iter().chain(&self.types))?;
+        let input = read_model_input(&self.model, self.types.as_ref())?;
+        let default_output = input.is_given().then(|| PathBuf::from(DEFAULT_OUTPUT));
+        let output = self.output.clone().or(default_output);
+        let (model, task) = input.read_planning_task(&self.task)?;
+        let read = clock.elapsed();
+        let options = self.options(self.imagine)?;
+        let proposal = match propose(&model, &task, &Restrictions::default(), &options, budget) {
+            Err(ProposeError::Cut(cut)) => Err(cut),
+            proposal => Ok(proposal?),
         };
-        if self.json {
-            let answer = Answer { outcome, seconds: took.as_secs_f64(), ..Answer::default() };
-            writeln!(anstream::stdout(), "{}", serde_json::to_string_pretty(&answer).unwrap_or_default())?;
-        } else {
-            anstream::eprintln!("{BAD}no plan{BAD:#}: {why}");
-        }
-        Ok(exit)
+        Ok(Begun { model, task, output, read, proposal })
     }
 
     fn options(&self, imagine: bool) -> Result<Options, Failure> {
@@ -282,6 +301,23 @@ impl Plan {
             anstream::eprintln!("{what}: {}", ending(outcome));
         }
     }
+}
+
+/// Says that the search did not even begin.
+fn say_cut(cut: Cut, json: bool, took: Duration) -> Result<Exit, Failure> {
+    let exit = cut_exit(cut);
+    let (outcome, why) = match exit {
+        Exit::OutOfMemory => ("out_of_memory", "out of memory while grounding"),
+        Exit::OutOfTime => ("out_of_time", "out of time while grounding"),
+        _ => ("stopped", "stopped while grounding"),
+    };
+    if json {
+        let answer = Answer { outcome, seconds: took.as_secs_f64(), ..Answer::default() };
+        writeln!(anstream::stdout(), "{}", serde_json::to_string_pretty(&answer).unwrap_or_default())?;
+    } else {
+        anstream::eprintln!("{BAD}no plan{BAD:#}: {why}");
+    }
+    Ok(exit)
 }
 
 fn ending(outcome: &Outcome) -> &'static str {

@@ -30,14 +30,17 @@ pub struct PddlNames {
 impl PddlNames {
     /// Folds each name: ASCII letters in lower case, other ASCII characters than letters, digits, `-` and `_` replaced
     /// by `_`, a character beyond ASCII by its code point as `_u1f375`, and `n_` put before a name that does not start
-    /// with a letter.
+    /// with a letter, or that PDDL keeps for itself.
     ///
     /// # Errors
     /// [`NameCollision`] if two different names fold to one.
     pub fn fold<'a>(kind: &'static str, names: impl IntoIterator<Item = &'a Symbol>) -> Result<Self, NameCollision> {
         let mut mapping = Self::default();
         for name in names {
-            let pddl = folded(name.as_str());
+            let mut pddl = folded(name.as_str());
+            if is_reserved(kind, pddl.as_str()) {
+                pddl = Symbol::from(format!("n_{pddl}"));
+            }
             match mapping.from_pddl.get(&pddl) {
                 Some(first) if first != name => {
                     return Err(NameCollision { kind, first: first.clone(), second: name.clone(), pddl });
@@ -64,6 +67,15 @@ impl PddlNames {
     /// Every pair `(name, PDDL name)`, sorted by name.
     pub fn iter(&self) -> impl Iterator<Item = (&Symbol, &Symbol)> {
         self.to_pddl.iter()
+    }
+}
+
+/// Whether a name of this kind means something else in PDDL.
+fn is_reserved(kind: &str, name: &str) -> bool {
+    match kind {
+        "predicate" => ["and", "or", "not", "imply", "exists", "forall", "when", "increase"].contains(&name),
+        "type" => ["either", "number"].contains(&name),
+        _ => false,
     }
 }
 
@@ -95,6 +107,10 @@ mod tests {
             assert_eq!(mapping.name(&pddl.as_str().to_uppercase()), Some(name));
         }
         assert_eq!(mapping.pddl("état").map(Symbol::as_str), Some("n__ue9tat"));
+        let reserved = PddlNames::fold("predicate", &["Not", "number"].map(Symbol::new)).expect("no collision");
+        assert_eq!(reserved.pddl("Not").map(Symbol::as_str), Some("n_not"));
+        assert_eq!(reserved.name("n_not").map(Symbol::as_str), Some("Not"));
+        assert_eq!(reserved.pddl("number").map(Symbol::as_str), Some("number"), "only a type may not be called that");
         let clash = PddlNames::fold("predicate", &["Ready", "ready"].map(Symbol::new)).expect_err("they collide");
         assert_eq!(clash.to_string(), "the predicate names `Ready` and `ready` are the same name in PDDL, `ready`");
     }

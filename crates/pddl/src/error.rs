@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use thiserror::Error;
+use typelift_model::printable;
 
 use crate::{Position, Span};
 
@@ -42,20 +43,21 @@ impl PddlError {
     /// An error about these bytes of `text`.
     pub fn new(text: &str, span: Span, message: impl Into<String>) -> Self {
         let position = Position::find(text, span.start);
-        Self { message: message.into(), position, span, related: None, hint: None, unsupported: false }
+        Self { message: printable(message), position, span, related: None, hint: None, unsupported: false }
     }
 
     /// With another place of the same text.
     #[must_use]
     pub fn with_related(mut self, text: &str, span: Span, note: impl Into<String>) -> Self {
-        self.related = Some(Box::new(Related { note: note.into(), position: Position::find(text, span.start), span }));
+        let position = Position::find(text, span.start);
+        self.related = Some(Box::new(Related { note: printable(note), position, span }));
         self
     }
 
     /// With advice.
     #[must_use]
     pub fn with_hint(mut self, hint: impl Into<String>) -> Self {
-        self.hint = Some(hint.into());
+        self.hint = Some(printable(hint));
         self
     }
 
@@ -100,10 +102,7 @@ fn shown_line(text: &str, span: Span) -> (String, usize, usize) {
     let line_start = text[..at].rfind('\n').map_or(0, |i| i + 1);
     let line_end = text[at..].find('\n').map_or(text.len(), |i| at + i);
     let end = span.end.clamp(at, line_end);
-    let expanded = |part: &str| -> Vec<char> {
-        let part = part.replace('\t', "    ");
-        part.chars().map(|c| if c.is_control() { '\u{FFFD}' } else { c }).collect()
-    };
+    let expanded = |part: &str| -> Vec<char> { printable(part.replace('\t', "    ")).chars().collect() };
     let mut line = expanded(&text[line_start..at]);
     let mut start = line.len();
     line.extend(expanded(&text[at..end]));

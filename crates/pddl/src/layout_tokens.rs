@@ -72,7 +72,9 @@ pub(crate) fn tokens(text: &str) -> Vec<Token<'_>> {
             _ => TokenKind::Atom,
         };
         let after_empty_line = line_ends > 1 && !tokens.is_empty();
-        tokens.push(Token { kind, text: token.trim_end(), after_empty_line, list: None, next: None });
+        // Only white space of ASCII separates words.
+        let text = if kind == TokenKind::Atom { token } else { token.trim_end() };
+        tokens.push(Token { kind, text, after_empty_line, list: None, next: None });
         line_ends = 0;
     }
     find_lists(&mut tokens);

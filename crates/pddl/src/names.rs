@@ -15,17 +15,25 @@ pub(crate) fn lower(text: &str) -> Cow<'_, str> {
     }
 }
 
+/// # Errors
+/// [`PddlError`] at a name that holds what separates names.
+pub(crate) fn check_new_name(text: &str, name: &str, span: Span) -> Result<(), PddlError> {
+    let refused = |why: String| Err(PddlError::new(text, span, why));
+    match check_name(name) {
+        Err(error) => refused(error.to_string()),
+        Ok(()) if name == "-" => refused("`-` cannot be a name: it stands before a type".to_owned()),
+        Ok(()) if name.starts_with(':') => refused(format!("`{name}` cannot be a name: it starts with `:`")),
+        Ok(()) => Ok(()),
+    }
+}
+
 /// A name that is declared at `span`, in lower case.
 ///
 /// # Errors
 /// [`PddlError`] if it holds what separates names.
 pub(crate) fn new_name(text: &str, name: &str, span: Span) -> Result<Symbol, PddlError> {
-    let refused = |why: String| Err(PddlError::new(text, span, why));
-    match check_name(name) {
-        Err(error) => refused(error.to_string()),
-        Ok(()) if name.starts_with(':') => refused(format!("`{name}` cannot be a name: it starts with `:`")),
-        Ok(()) => Ok(Symbol::new(&lower(name))),
-    }
+    check_new_name(text, name, span)?;
+    Ok(Symbol::new(&lower(name)))
 }
 
 /// The name that is declared by this atom, in lower case.

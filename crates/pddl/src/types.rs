@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use typelift_model::{Hierarchy, HierarchyError, ROOT, Symbol};
 
+use crate::names::check_new_name;
 use crate::{Definition, DefinitionKind, Document, PddlError, Sexpr, Span, read_typed_list};
 
 /// One declared type with its parent.
@@ -48,13 +49,16 @@ pub(crate) fn types_of_block(block: Sexpr<'_>) -> Result<Vec<TypeEdge>, PddlErro
     let mut spelled = |name: &str| -> Symbol {
         spelling.entry(name.to_ascii_lowercase()).or_insert_with(|| Symbol::new(name)).clone()
     };
+    let text = block.document_text();
     for name in &declared {
+        check_new_name(text, name.name, name.span)?;
         spelled(name.name);
     }
     declared
         .iter()
         .map(|declaration| {
             let parent = declaration.ty.map_or(Ok(ROOT), parent_name)?;
+            check_new_name(text, parent, declaration.ty.map_or(declaration.span, Sexpr::span))?;
             Ok(TypeEdge { child: spelled(declaration.name), parent: spelled(parent), span: declaration.span })
         })
         .collect()
@@ -183,6 +187,9 @@ mod tests {
                 "line 1, column 9: `object` is the root of every hierarchy and cannot have the parent `thing`",
             ),
             ("(:types a - (b))", "line 1, column 13: the name of a type is expected here, not a list"),
+            ("(:types a,b - c)", "line 1, column 9: `a,b` cannot be a name: it holds one of ( ) , ; \""),
+            ("(:types a - b\u{A0})", "line 1, column 13: `b\u{A0}` cannot be a name: it holds white space"),
+            ("(:types a - -)", "line 1, column 13: `-` cannot be a name: it stands before a type"),
             ("(:predicates (p))", "line 1, column 1: neither a `(:types …)` block nor a domain"),
             ("(define (problem p))", "line 1, column 1: this is a problem; types are declared in a domain"),
             ("(define)", "line 1, column 1: there is no `(domain NAME)` or `(problem NAME)` after `define`"),

@@ -11,6 +11,15 @@ fn formatted(text: &str) -> String {
 }
 
 #[test]
+fn only_white_space_of_ascii_ends_a_word() {
+    for text in ["(p\u{A0} q\u{85})\n", "\u{B}\n", "\u{2003}(a)\n"] {
+        let laid_out = formatted(text);
+        let words = |text: &str| text.split([' ', '\n', '(', ')']).map(str::to_owned).collect::<String>();
+        assert_eq!(words(&laid_out), words(text), "{text:?}");
+    }
+}
+
+#[test]
 fn a_domain() {
     let text = "; the top\r
 ;second line\r

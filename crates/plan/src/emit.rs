@@ -23,6 +23,7 @@ impl Join<'_> {
         }
         effects.sort_unstable();
         effects.dedup();
+        self.poll.check(effects.len())?;
         let objects: Box<[ObjectId]> = binding.iter().copied().flatten().collect();
         let (Source::Action(index, _) | Source::Axiom(index)) = schema.source;
         let op = RawOp { schema: index, objects, preconditions, negative, effects };
@@ -51,7 +52,7 @@ impl Join<'_> {
         if self.budget.bytes.is_some_and(|limit| self.bytes > limit) {
             return Err(Cut::OutOfMemory);
         }
-        self.poll()
+        self.poll.check(1)
     }
 
     /// The facts that must hold, and those that must not; `None` if they never can as they should.
@@ -111,7 +112,7 @@ impl Join<'_> {
             }
             return Ok(());
         }
-        self.poll()?;
+        self.poll.check(self.facts.objects.len())?;
         for object in self.facts.object_ids().filter(|object| effect.fits[next][object.index()]) {
             binding[own + next] = Some(object);
             if self.can_still_hold(&effect.condition, binding) {

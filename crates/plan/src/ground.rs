@@ -5,11 +5,13 @@
 
 use std::collections::BTreeSet;
 
-use typelift_model::{ActionModel, ActionSchema, Budget, GroundAtom, HashMap, HashSet, Step, Symbol, Task};
+use typelift_model::{ActionModel, ActionSchema, Budget, GroundAtom, HashMap, Step, Symbol, Task};
 
 use crate::Restrictions;
 use crate::axiom::Axioms;
+use crate::distinct::Distinct;
 use crate::fact::{FactId, Facts};
+use crate::poll::Poll;
 use crate::reach::{Cut, RawOp, Reached, reach};
 
 /// A ground action of one [`GroundTask`].
@@ -55,8 +57,8 @@ pub struct ConditionalEffect {
 /// A ground action. All lists are sorted.
 #[derive(Debug, Clone)]
 pub struct Op {
-    schema: usize,
-    objects: Vec<Symbol>,
+    pub(crate) schema: usize,
+    pub(crate) objects: Vec<Symbol>,
     /// Facts that must hold.
     pub preconditions: Vec<FactId>,
     /// Facts that must not hold.
@@ -103,7 +105,7 @@ pub fn ground(
     order: TieOrder,
     budget: &Budget,
 ) -> Result<GroundTask, Cut> {
-    let Reached { mut facts, ops: mut raw, axioms: raw_axioms } = reach(model, task, restrictions, budget)?;
+    let Reached { mut facts, ops: mut raw, axioms: raw_axioms, mut bytes } = reach(model, task, restrictions, budget)?;
     let derived = model.derived_predicates();
     let basic = task.init.atoms.iter().filter(|atom| !derived.contains(&atom.predicate));
     let init: Vec<FactId> = basic.filter_map(|atom| facts.find(atom)).collect();
@@ -129,25 +131,23 @@ pub fn ground(
         })
     };
     let ops_before_deduplication = raw.len();
-    let mut seen = HashSet::default();
-    let mut ops = Vec::with_capacity(raw.len());
+    let mut ops = Distinct::new(&model.actions);
+    let mut poll = Poll::new(budget);
     for op in raw {
+        poll.check(1 + op.effects.len())?;
+        bytes -= op.bytes();
         let schema = &model.actions[op.schema];
         let touches_goal = touches_goal(&op);
         let objects: Vec<Symbol> = op.objects.iter().map(|&o| facts.name(o).clone()).collect();
         // Where what it costs is not stated, an action cannot be used.
         let Some(cost) = schema.cost.of(&objects, &task.values) else { continue };
-        let op = resolve(op, objects, cost, &facts, touches_goal);
-        let call: Vec<Symbol> = schema.call.args.iter().map(|term| term.object(&op.objects)).collect();
-        let identity = (schema.call.name.clone(), call, op.preconditions.clone(), op.negative.clone(), op.cost);
-        let effect = (op.adds.clone(), op.deletes.clone(), op.conditional.clone());
-        if seen.insert((identity, effect)) {
-            ops.push(op);
-        }
+        ops.insert(resolve(op, objects, cost, &facts, touches_goal), bytes, budget)?;
     }
+    let mut ops = ops.into_ops();
     let actions = ops.len();
     let mut strata = Vec::with_capacity(raw_axioms.len());
     for axiom in raw_axioms {
+        poll.check(1)?;
         strata.push(model.axioms[axiom.schema].stratum);
         ops.push(resolve(axiom, Vec::new(), 0, &facts, false));
     }
@@ -257,6 +257,11 @@ impl GroundTask {
     /// The number of ground actions.
     pub fn op_count(&self) -> usize {
         self.actions
+    }
+
+    /// The number of ground axioms.
+    pub(crate) fn axiom_count(&self) -> usize {
+        self.ops.len() - self.actions
     }
 
     /// The number of ground actions with those that only repeat another's call, preconditions and effect.

@@ -19,6 +19,7 @@ use typelift_model::{Budget, GroundAtom, Symbol};
 
 use crate::fact::FactId;
 use crate::ground::{GroundTask, Op, OpId};
+use crate::poll::Poll;
 use crate::reach::Cut;
 
 /// Landmarks in the order in which they are to be passed.
@@ -35,7 +36,8 @@ pub struct LandmarkSequence {
 /// # Errors
 /// [`Cut`] if the budget ends it.
 pub fn landmark_sequences(task: &GroundTask, budget: &Budget) -> Result<Vec<LandmarkSequence>, Cut> {
-    let landmarks = LandmarkSets::of(task, budget)?;
+    let mut poll = Poll::new(budget);
+    let landmarks = LandmarkSets::of(task, &mut poll)?;
     let mut sequences = Vec::new();
     for (object, goals) in clusters(task) {
         let objects: BTreeSet<&Symbol> = match &object {
@@ -50,20 +52,24 @@ pub fn landmark_sequences(task: &GroundTask, budget: &Budget) -> Result<Vec<Land
                     && (landmark == fact || task.atom(landmark).args.iter().any(|arg| objects.contains(arg)))
             }));
         }
-        let ordered = landmarks.ordered(&facts.into_iter().collect::<Vec<_>>());
-        let facts = landmarks.with_repetitions(&ordered);
+        let ordered = landmarks.ordered(&facts.into_iter().collect::<Vec<_>>(), &mut poll)?;
+        let facts = landmarks.with_repetitions(&ordered, &mut poll)?;
         sequences.push(LandmarkSequence { object, facts });
-        poll(budget)?;
     }
     Ok(sequences)
 }
 
 /// Two goal facts that cannot hold together: one does not hold initially, and everything that achieves it deletes the
 /// other, which nothing adds again; or each is deleted by everything that achieves the other, and neither holds initially.
-pub(crate) fn exclusive_goals(task: &GroundTask) -> Option<(FactId, FactId)> {
+///
+/// # Errors
+/// [`Cut`] if the budget ends it.
+pub(crate) fn exclusive_goals(task: &GroundTask, budget: &Budget) -> Result<Option<(FactId, FactId)>, Cut> {
+    let mut poll = Poll::new(budget);
     let goal = task.goal();
     let mut achievers: Vec<Vec<&Op>> = vec![Vec::new(); goal.len()];
     for (_, op) in task.ops_and_axioms() {
+        poll.check(1 + op.adds.len() + op.conditional.len())?;
         for (fact, _) in added(op) {
             if let Ok(place) = goal.binary_search(&fact) {
                 achievers[place].push(op);
@@ -74,20 +80,18 @@ pub(crate) fn exclusive_goals(task: &GroundTask) -> Option<(FactId, FactId)> {
     let destroys = |achieved: usize, other: usize| {
         achievers[achieved].iter().all(|op| op.deletes.binary_search(&goal[other]).is_ok())
     };
-    let pairs = (0..goal.len()).flat_map(|a| (0..goal.len()).map(move |b| (a, b)));
-    let exclude = |&(a, b): &(usize, usize)| {
+    let exclude = |a: usize, b: usize| {
         let gone_for_good = achievers[b].is_empty();
         a != b && !initial[a] && destroys(a, b) && (gone_for_good || !initial[b] && destroys(b, a))
     };
-    pairs.into_iter().find(exclude).map(|(a, b)| (goal[a], goal[b]))
+    for (a, b) in (0..goal.len()).flat_map(|a| (0..goal.len()).map(move |b| (a, b))) {
+        poll.check(1 + achievers[a].len())?;
+        if exclude(a, b) {
+            return Ok(Some((goal[a], goal[b])));
+        }
+    }
+    Ok(None)
 }
-
-fn poll(budget: &Budget) -> Result<(), Cut> {
-    budget.stopped().map_or(Ok(()), |stop| Err(Cut::Stopped(stop)))
-}
-
-/// How often, in actions looked at, the budget is asked whether to stop.
-const POLL_INTERVAL: usize = 1 << 10;
 
 /// The goal's atoms by goal object; atoms that mention none stand alone, after them.
 fn clusters(task: &GroundTask) -> Vec<(Option<Symbol>, Vec<GroundAtom>)> {
@@ -118,7 +122,7 @@ struct LandmarkSets<'a> {
 }
 
 impl<'a> LandmarkSets<'a> {
-    fn of(task: &'a GroundTask, budget: &Budget) -> Result<Self, Cut> {
+    fn of(task: &'a GroundTask, poll: &mut Poll<'_>) -> Result<Self, Cut> {
         let n = task.fact_count();
         let mut this = Self { task, initial: vec![false; n], achievers: vec![Vec::new(); n], sets: vec![None; n] };
         for &fact in task.init() {
@@ -128,6 +132,7 @@ impl<'a> LandmarkSets<'a> {
         // Which actions must be looked at again when the set of a fact changes.
         let mut users: Vec<Vec<OpId>> = vec![Vec::new(); n];
         for (id, op) in task.ops_and_axioms() {
+            poll.check(1 + op.preconditions.len() * (op.adds.len() + op.conditional.len()))?;
             for (fact, condition) in added(op) {
                 if this.achievers[fact.index()].last() != Some(&id) {
                     this.achievers[fact.index()].push(id);
@@ -141,14 +146,11 @@ impl<'a> LandmarkSets<'a> {
         }
         let mut queue: VecDeque<OpId> = task.ops_and_axioms().map(|(id, _)| id).collect();
         let mut queued = vec![true; queue.len()];
-        let mut work = 0_usize;
         while let Some(id) = queue.pop_front() {
-            work += 1;
-            if work.is_multiple_of(POLL_INTERVAL) {
-                poll(budget)?;
-            }
             queued[id.index()] = false;
-            for fact in this.propagate(task.op(id)) {
+            let (changed, work) = this.propagate(task.op(id));
+            poll.check(1 + work)?;
+            for fact in changed {
                 for &user in &users[fact.index()] {
                     if !std::mem::replace(&mut queued[user.index()], true) {
                         queue.push_back(user);
@@ -168,10 +170,11 @@ impl<'a> LandmarkSets<'a> {
         Some(union)
     }
 
-    /// Narrows the sets of the facts that an action adds; the facts whose sets changed.
-    fn propagate(&mut self, op: &Op) -> Vec<FactId> {
-        let mut changed = Vec::new();
-        let Some(base) = self.needed(op.preconditions.iter()) else { return changed };
+    /// Narrows the sets of the facts that an action adds; the facts whose sets changed, and how much work it was.
+    fn propagate(&mut self, op: &Op) -> (Vec<FactId>, usize) {
+        let (mut changed, mut work) = (Vec::new(), op.preconditions.len());
+        let Some(base) = self.needed(op.preconditions.iter()) else { return (changed, work) };
+        work += base.len();
         for (fact, condition) in added(op) {
             if self.initial[fact.index()] {
                 continue;
@@ -179,6 +182,7 @@ impl<'a> LandmarkSets<'a> {
             let Some(mut union) = self.needed(condition.iter()) else { continue };
             union.extend(&base);
             union.insert(fact);
+            work += union.len();
             let narrowed: Vec<FactId> = match &self.sets[fact.index()] {
                 None => union.into_iter().collect(),
                 Some(known) => known.iter().copied().filter(|f| union.contains(f)).collect(),
@@ -188,7 +192,7 @@ impl<'a> LandmarkSets<'a> {
                 changed.push(fact);
             }
         }
-        changed
+        (changed, work)
     }
 
     fn of_fact(&self, fact: FactId) -> &[FactId] {
@@ -223,7 +227,7 @@ impl<'a> LandmarkSets<'a> {
             && self.every_achiever(a, |op| op.preconditions.iter().any(|fact| lost.binary_search(fact).is_ok()))
     }
 
-    fn ordered(&self, facts: &[FactId]) -> Vec<FactId> {
+    fn ordered(&self, facts: &[FactId], poll: &mut Poll<'_>) -> Result<Vec<FactId>, Cut> {
         let mut sorted: Vec<(usize, GroundAtom, FactId)> =
             facts.iter().map(|&fact| (self.of_fact(fact).len(), self.task.atom(fact), fact)).collect();
         sorted.sort_unstable();
@@ -252,6 +256,7 @@ impl<'a> LandmarkSets<'a> {
         let mut waits_for = vec![0_usize; n];
         let mut followers: Vec<Vec<usize>> = vec![Vec::new(); n];
         for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))).filter(|(a, b)| a != b) {
+            poll.check(1 + self.achievers[facts[a].index()].len() + self.achievers[facts[b].index()].len())?;
             if before(a, b) {
                 waits_for[b] += 1;
                 followers[a].push(b);
@@ -266,14 +271,15 @@ impl<'a> LandmarkSets<'a> {
             }
             ordered.push(facts[next]);
         }
-        ordered
+        Ok(ordered)
     }
 
-    fn with_repetitions(&self, ordered: &[FactId]) -> Vec<FactId> {
+    fn with_repetitions(&self, ordered: &[FactId], poll: &mut Poll<'_>) -> Result<Vec<FactId>, Cut> {
         let mut sequence: Vec<FactId> = Vec::with_capacity(ordered.len());
         // Whether each landmark was destroyed, by what every achiever of a later one deletes, since its last place.
         let mut destroyed = vec![false; ordered.len()];
         for (i, &landmark) in ordered.iter().enumerate() {
+            poll.check(1 + i * self.achievers[landmark.index()].len())?;
             let needed = self.common(landmark, |op| &op.preconditions);
             let mut insert = |place: usize, fact: FactId, destroyed: &mut Vec<bool>| {
                 let deleted = self.common(fact, |op| &op.deletes);
@@ -290,7 +296,7 @@ impl<'a> LandmarkSets<'a> {
             }
             insert(i, landmark, &mut destroyed);
         }
-        sequence
+        Ok(sequence)
     }
 }
 

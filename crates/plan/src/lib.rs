@@ -11,6 +11,7 @@
 #![deny(missing_docs)]
 
 mod axiom;
+mod distinct;
 mod emit;
 mod explain;
 mod external;
@@ -18,8 +19,10 @@ mod fact;
 mod ground;
 pub mod heuristic;
 mod landmark;
+mod memory;
 mod pattern;
 mod planner;
+mod poll;
 mod reach;
 mod restrict;
 mod restricted;

@@ -8,6 +8,7 @@ use crate::fact::FactId;
 use crate::ground::{GroundTask, TieOrder, ground};
 use crate::heuristic::OrderedLandmarks;
 use crate::landmark::{exclusive_goals, landmark_sequences};
+use crate::poll::Poll;
 use crate::reach::Cut;
 use crate::search::{Outcome, Report, Search};
 use crate::successor::holds;
@@ -57,8 +58,8 @@ impl Planner {
         budget: &Budget,
     ) -> Result<Self, Cut> {
         let ground = ground(model, task, restrictions, options.tie_order, budget)?;
-        let exclusive = exclusive_goals(&ground).map(|(a, b)| (ground.atom(a), ground.atom(b)));
-        let lasting = lasting(&ground);
+        let exclusive = exclusive_goals(&ground, budget)?.map(|(a, b)| (ground.atom(a), ground.atom(b)));
+        let lasting = lasting(&ground, budget)?;
         let search = if ground.unreachable_goals().is_empty() && exclusive.is_none() && lasting.is_empty() {
             let heuristic = OrderedLandmarks::new(landmark_sequences(&ground, budget)?);
             Some(Search::new(&ground, Box::new(heuristic), options.plans))
@@ -129,12 +130,16 @@ impl Planner {
 }
 
 /// What must not hold in the end, but holds initially and is neither deleted by any action nor derived.
-fn lasting(task: &GroundTask) -> Vec<GroundAtom> {
-    let is_deleted = |fact: FactId| {
-        task.ops().any(|(_, op)| {
-            op.deletes.binary_search(&fact).is_ok() || op.conditional.iter().any(|e| !e.adds && e.fact == fact)
-        })
-    };
-    let initially = task.negative_goal().iter().copied().filter(|fact| task.init().contains(fact));
-    initially.filter(|&fact| !task.axioms().derives(fact) && !is_deleted(fact)).map(|fact| task.atom(fact)).collect()
+fn lasting(task: &GroundTask, budget: &Budget) -> Result<Vec<GroundAtom>, Cut> {
+    let initially = task.negative_goal().iter().filter(|fact| task.init().contains(fact));
+    let mut lasting: Vec<FactId> = initially.copied().filter(|&fact| !task.axioms().derives(fact)).collect();
+    let mut poll = Poll::new(budget);
+    for (_, op) in task.ops() {
+        poll.check(1 + lasting.len())?;
+        let is_deleted = |fact: &FactId| {
+            op.deletes.binary_search(fact).is_ok() || op.conditional.iter().any(|e| !e.adds && e.fact == *fact)
+        };
+        lasting.retain(|fact| !is_deleted(fact));
+    }
+    Ok(lasting.into_iter().map(|fact| task.atom(fact)).collect())
 }

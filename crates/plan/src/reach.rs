@@ -13,10 +13,9 @@ use typelift_model::{ActionModel, Budget, HashMap, HashSet, Stop, Task};
 
 use crate::Restrictions;
 use crate::fact::{FactId, Facts, ObjectId};
+use crate::memory::held;
 use crate::pattern::{Arg, Compiled, Compiler, Pattern, fluents};
-
-/// How often, in joins and ground actions, the budget is asked whether to stop.
-const POLL_INTERVAL: usize = 1 << 12;
+use crate::poll::Poll;
 
 /// Why grounding ended early.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
@@ -54,6 +53,8 @@ pub(crate) struct Reached {
     pub(crate) facts: Facts,
     pub(crate) ops: Vec<RawOp>,
     pub(crate) axioms: Vec<RawOp>,
+    /// Bytes that they hold, roughly.
+    pub(crate) bytes: u64,
 }
 
 /// The facts and ground actions reachable from the task's initial state without deletes.
@@ -88,7 +89,7 @@ pub(crate) fn reach(
         pending: Vec::new(),
         trigger: None,
         bytes: 0,
-        work: 0,
+        poll: Poll::new(budget),
     };
     let derived = model.derived_predicates();
     for atom in task.init.atoms.iter().filter(|atom| !derived.contains(&atom.predicate)) {
@@ -117,7 +118,7 @@ pub(crate) fn reach(
             }
         }
     }
-    Ok(Reached { facts: join.facts, ops: join.ops, axioms: join.axioms })
+    Ok(Reached { facts: join.facts, ops: join.ops, axioms: join.axioms, bytes: join.bytes })
 }
 
 /// An effect whose condition is not reached yet.
@@ -144,8 +145,8 @@ pub(crate) struct Join<'a> {
     /// The fact being joined: preconditions before the one it came through may not match it again.
     pub(crate) trigger: Option<FactId>,
     pub(crate) bytes: u64,
-    /// Joins and ground actions so far.
-    pub(crate) work: usize,
+    /// Counts joins and ground actions.
+    pub(crate) poll: Poll<'a>,
 }
 
 impl Join<'_> {
@@ -253,10 +254,11 @@ impl Join<'_> {
         let best =
             (0..open.len()).min_by_key(|&i| self.candidates(&schema.condition.positive[open[i].0], binding).len());
         let Some(best) = best else { return self.complete(schema, binding) };
-        self.poll()?;
         let (k, older) = open.swap_remove(best);
         let pattern = &schema.condition.positive[k];
-        for fact in self.candidates(pattern, binding).to_vec() {
+        let candidates = self.candidates(pattern, binding).to_vec();
+        self.poll.check(1 + candidates.len())?;
+        for fact in candidates {
             if older && self.trigger == Some(fact) {
                 continue;
             }
@@ -275,6 +277,7 @@ impl Join<'_> {
 
     fn complete(&mut self, schema: &Compiled<'_>, binding: &mut Vec<Option<ObjectId>>) -> Result<(), Cut> {
         let Some(free) = binding.iter().position(Option::is_none) else { return self.emit(schema, binding) };
+        self.poll.check(self.facts.objects.len())?;
         for object in self.facts.object_ids() {
             if self.may_take(schema, free, object, binding) {
                 binding[free] = Some(object);
@@ -284,23 +287,14 @@ impl Join<'_> {
         }
         Ok(())
     }
-
-    /// Now and then asks whether to stop.
-    pub(crate) fn poll(&mut self) -> Result<(), Cut> {
-        self.work += 1;
-        if self.work.is_multiple_of(POLL_INTERVAL)
-            && let Some(stop) = self.budget.stopped()
-        {
-            return Err(Cut::Stopped(stop));
-        }
-        Ok(())
-    }
 }
 
 impl RawOp {
     /// Bytes it holds, roughly.
     pub(crate) fn bytes(&self) -> u64 {
-        let lists = self.objects.len() + self.preconditions.len() + self.negative.len() + 12 * self.effects.len();
-        (lists * 4 + std::mem::size_of::<Self>()) as u64
+        let conditions = self.effects.iter().flat_map(|effect| [&effect.condition, &effect.negative_condition]);
+        let facts = [&self.preconditions, &self.negative].into_iter().chain(conditions);
+        let lists: usize = facts.map(|list| held(list)).sum();
+        (std::mem::size_of::<Self>() + held(&self.objects) + held(&self.effects) + lists) as u64
     }
 }

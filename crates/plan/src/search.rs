@@ -13,6 +13,7 @@ use typelift_model::{Budget, HashMap, HashSet, Plan, Stop};
 
 use crate::ground::{GroundTask, OpId};
 use crate::heuristic::Heuristic;
+use crate::poll::Poll;
 use crate::successor::{applicable, apply, initial, is_goal, words};
 
 /// How a search ended.
@@ -59,9 +60,6 @@ pub struct Report {
     /// Bytes held by the search's nodes and tables, by its own count.
     pub bytes: u64,
 }
-
-/// How often, in expansions, the budget is asked whether to stop.
-const POLL_INTERVAL: u64 = 256;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct NodeId(u32);
@@ -150,6 +148,7 @@ impl Search {
         let (mut state, mut after) = (vec![0; self.words], vec![0; self.words]);
         let (mut parent_memory, mut memory) = (vec![0; self.memory_len], vec![0; self.memory_len]);
         let mut ops = Vec::new();
+        let mut poll = Poll::new(budget);
         while let Some(Reverse((_, _, id))) = self.open.pop() {
             let node = self.nodes[id.0 as usize];
             if node.superseded {
@@ -170,13 +169,8 @@ impl Search {
                 self.open.push(Reverse((0, 0, id)));
                 return Outcome::GaveUp;
             }
-            if budget.bytes.is_some_and(|limit| self.report.bytes > limit) {
-                self.open.push(Reverse((0, 0, id)));
-                return Outcome::OutOfMemory;
-            }
-            if self.report.expansions.is_multiple_of(POLL_INTERVAL)
-                && let Some(stop) = budget.stopped()
-            {
+            // Looking for the applicable actions is work as well.
+            if let Some(stop) = poll.stopped(1 + task.op_count()) {
                 self.open.push(Reverse((0, 0, id)));
                 return stop.into();
             }
@@ -185,6 +179,15 @@ impl Search {
             parent_memory.copy_from_slice(self.memory(id));
             applicable(task, &state, &mut ops);
             for &op_id in &ops {
+                // A node that is left half expanded is expanded again: what is known already is not inserted twice.
+                if budget.bytes.is_some_and(|limit| self.report.bytes > limit) {
+                    self.open.push(Reverse((0, 0, id)));
+                    return Outcome::OutOfMemory;
+                }
+                if let Some(stop) = poll.stopped(1 + self.words + task.axiom_count()) {
+                    self.open.push(Reverse((0, 0, id)));
+                    return stop.into();
+                }
                 let op = task.op(op_id);
                 after.copy_from_slice(&state);
                 apply(task, op, &state, &mut after);

@@ -4,7 +4,7 @@ use std::io;
 use std::path::Path;
 
 use thiserror::Error;
-use typelift_model::{Hierarchy, did_you_mean};
+use typelift_model::{Hierarchy, did_you_mean, printable};
 use typelift_pddl::PddlError;
 
 use crate::{ParseError, ParseErrorKind, json};
@@ -37,7 +37,7 @@ impl FileError {
     /// An error about a file as a whole.
     pub fn new(file: &Path, what: impl Into<String>) -> Self {
         Self {
-            what: what.into(),
+            what: printable(what),
             file: file.display().to_string(),
             line: None,
             column: None,
@@ -62,7 +62,7 @@ impl FileError {
     /// With advice, if there is any.
     #[must_use]
     pub fn with_hint(mut self, hint: impl Into<Option<String>>) -> Self {
-        self.hint = hint.into();
+        self.hint = hint.into().map(printable);
         self
     }
 

@@ -19,6 +19,10 @@ fn every_command_has_help() {
         "kitchen serve",
         "kitchen replay",
         "kitchen draw",
+        "lab",
+        "lab table",
+        "lab demonstrations",
+        "lab faults",
     ];
     let folder = Folder::new();
     for command in commands {

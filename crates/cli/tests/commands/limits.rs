@@ -1,5 +1,8 @@
 //! Limits of time, expansions and memory.
 
+use std::fmt::Write as _;
+use std::time::Instant;
+
 use crate::common::{Folder, Transcript};
 
 #[test]
@@ -56,4 +59,34 @@ fn a_time_limit_covers_grounding() {
     });
     let ended = folder.run("plan wide.json K/tasks/T1.1.json --time-limit 200ms");
     assert_eq!((ended.code, ended.err.as_str()), (23, "no plan: out of time while grounding\n"), "{ended}");
+}
+
+#[test]
+fn a_time_limit_covers_reading() {
+    let folder = Folder::new();
+    folder.write(
+        "domain.pddl",
+        "(define (domain roads) (:types place) (:predicates (at ?p - place) (road ?a ?b - place))
+           (:action go :parameters (?a ?b - place) :precondition (and (at ?a) (road ?a ?b)) :effect (at ?b)))",
+    );
+    let mut problem = String::from("(define (problem far) (:domain roads) (:objects");
+    let places = 40_000;
+    (0..places).for_each(|i| write!(problem, " p{i}").expect("written"));
+    problem.push_str(" - place) (:init (at p0)");
+    (1..places).for_each(|i| write!(problem, " (road p{} p{i})\n", i - 1).expect("written"));
+    problem.push_str(") (:goal (at p9)))");
+    folder.write("problem.pddl", problem);
+    let took = |command: &str, code: i32| {
+        let begun = Instant::now();
+        let ended = folder.run(command);
+        assert_eq!(ended.code, code, "{command}: {ended}");
+        begun.elapsed()
+    };
+    let read = took("pddl check domain.pddl problem.pddl", 0);
+    for json in ["", " --json"] {
+        let command = format!("plan domain.pddl problem.pddl -o p --time-limit {}ms{json}", read.as_millis() / 10);
+        let stopped = took(&command, 23);
+        assert!(stopped < read, "{stopped:?} with a tenth of {read:?} that reading takes");
+    }
+    assert!(!folder.names().contains(&"p".to_owned()));
 }

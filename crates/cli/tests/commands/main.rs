@@ -11,6 +11,7 @@ mod environments;
 mod exporting;
 mod given;
 mod help;
+mod lab;
 mod learning;
 mod limits;
 mod outputs;

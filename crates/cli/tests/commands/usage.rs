@@ -38,6 +38,14 @@ fn wrong_command_lines() {
         "kitchen clean",
         "kitchen export K --seed 18446744073709551616",
         "demo --seed x",
+        "lab",
+        "lab table",
+        "lab table -o ''",
+        "lab table -o T --jobs 0",
+        "lab table -o T --runs 0",
+        "lab faults -o F --runs 0",
+        "lab faults -o F --max-proposals -1",
+        "lab demonstrations -o D --variant special",
     ] {
         let ended = folder.run(command);
         assert_eq!((ended.code, ended.out.as_str()), (36, ""), "{command}: {ended}");

@@ -190,7 +190,7 @@ impl DemonstrationsResult {
 }
 
 /// Learns from every subset, tests on every task, and writes `demonstrations.csv`, `sizes.csv`, `gains.csv`,
-/// `demonstrations.json` and `demonstrations.md`.
+/// `violins.svg`, `demonstrations.json` and `demonstrations.md`.
 ///
 /// # Errors
 /// [`LabError`]; see [`carry_out`].

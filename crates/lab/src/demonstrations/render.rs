@@ -1,5 +1,5 @@
-//! The experiment as files: `demonstrations.csv` (a row a subset), `sizes.csv`, `gains.csv`, and the same as JSON and
-//! for people.
+//! The experiment as files: `demonstrations.csv` (a row a subset, of which the violins in `violins.svg` are made),
+//! `sizes.csv`, `gains.csv`, and the same as JSON and for people.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -9,6 +9,7 @@ use typelift::world::{FileError, write_file};
 
 use crate::csv::Csv;
 use crate::demonstrations::{DemonstrationsResult, Size, Subset};
+use crate::figure::{Column, Violins, violins};
 use crate::published::published;
 use crate::variant::Variant;
 
@@ -104,6 +105,7 @@ impl DemonstrationsResult {
                     "demonstrations": size.size,
                     "subsets": size.solved.len(),
                     "solved": size.solved,
+                    "solved": size.solved,
                     "solved_min": min,
                     "solved_median": size.median(),
                     "solved_max": max,
@@ -160,10 +162,24 @@ impl DemonstrationsResult {
         text
     }
 
+    /// A violin for each number of demonstrations, a panel for each variant.
+    pub fn violins(&self) -> String {
+        let panel = |variant: &Variant| {
+            let column = |size: Size| Column {
+                label: size.size.to_string(),
+                values: size.solved.iter().map(|solved| self.fraction(*solved as f64)).collect(),
+            };
+            Violins { title: variant.to_string(), columns: self.sizes(*variant).into_iter().map(column).collect() }
+        };
+        let panels: Vec<Violins> = self.options.variants.iter().map(panel).collect();
+        violins(&panels, "demonstrations", &format!("fraction of {} tasks solved", self.tasks))
+    }
+
     pub(super) fn write(&self, folder: &Path) -> Result<(), FileError> {
         write_file(&folder.join("demonstrations.csv"), self.csv().as_bytes())?;
         write_file(&folder.join("sizes.csv"), self.sizes_csv().as_bytes())?;
         write_file(&folder.join("gains.csv"), self.gains_csv().as_bytes())?;
+        write_file(&folder.join("violins.svg"), self.violins().as_bytes())?;
         write_file(&folder.join("demonstrations.json"), format!("{:#}\n", self.json()).as_bytes())?;
         write_file(&folder.join("demonstrations.md"), self.markdown().as_bytes())
     }

@@ -25,7 +25,7 @@ pub use outcome::Outcome;
 pub use render::FaultRow;
 pub use scenario::{FaultScenario, fault_scenarios};
 
-use outcome::{Listening, outcome, repeated};
+use outcome::{Listening, failed_otherwise, outcome, repeated};
 
 /// What is run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -72,8 +72,10 @@ pub struct FaultRecord {
     pub first: Outcome,
     /// The later one.
     pub later: Outcome,
-    /// Actions of the later task that were known to fail.
+    /// Known mistakes made again in the later task; there should be none.
     pub repeated: Vec<String>,
+    /// Calls that failed in both tasks, with something else expected of them in the later, when nothing else was left.
+    pub failed_otherwise: Vec<String>,
 }
 
 struct FaultsExperiment {
@@ -134,10 +136,12 @@ impl Experiment for FaultsExperiment {
         let [(first, _), (later, told)] = both.as_slice() else {
             return Err(failed("there are two tasks".to_owned()));
         };
+        let repeated = repeated(first, later, told);
         Ok(Some(FaultRecord {
             first: outcome(&first.account),
             later: outcome(&later.account),
-            repeated: repeated(first, later, told),
+            failed_otherwise: failed_otherwise(first, later, &repeated),
+            repeated,
         }))
     }
 }

@@ -1,6 +1,6 @@
 //! What came of a task, and which known mistakes were made again.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 use typelift::agent::{Account, Ending};
@@ -75,17 +75,27 @@ fn exclusion(exclusion: &Exclusion) -> String {
     }
 }
 
-/// The actions told in the later task that failed in the first, or that a thing excluded then takes part in although
-/// exclusions were not lifted.
+/// Known mistakes made again in the later task: a ground action, with the effect expected of it, that failed in the
+/// first and fails again, or a thing excluded then that takes part although exclusions were not lifted.
 pub(super) fn repeated(first: &Attempt, later: &Attempt, told: &[GroundCall]) -> Vec<String> {
-    let failed = |call: &GroundCall| first.account.failures.iter().any(|failure| failure.call == *call);
-    let excluded = |call: &GroundCall| {
+    let before: BTreeMap<_, _> = first.experience.bans().map(|(ban, why)| (ban, why.count)).collect();
+    let again = later.experience.bans().filter(|(ban, why)| before.get(ban).is_some_and(|count| why.count > *count));
+    let excluded = |call: &&GroundCall| {
         first.experience.exclusions().any(|(exclusion, _)| {
             call.args.contains(&exclusion.object) && exclusion.call.as_ref().is_none_or(|name| *name == call.name)
         })
     };
-    let known = told.iter().filter(|call| failed(call) || (!later.account.lifted && excluded(call)));
-    known.map(ToString::to_string).collect()
+    let used = told.iter().filter(|call| !later.account.lifted && excluded(call));
+    again.map(|(ban, _)| &ban.call).chain(used).map(ToString::to_string).collect()
+}
+
+/// Calls that failed in the first task and again in the later one, where something else was expected of them: nothing
+/// else was left, and exclusions were lifted.
+pub(super) fn failed_otherwise(first: &Attempt, later: &Attempt, repeated: &[String]) -> Vec<String> {
+    let calls = |attempt: &Attempt| -> BTreeSet<String> {
+        attempt.account.failures.iter().map(|failure| failure.call.to_string()).collect()
+    };
+    calls(first).intersection(&calls(later)).filter(|call| !repeated.contains(call)).cloned().collect()
 }
 
 /// A kitchen that writes down what it is told.

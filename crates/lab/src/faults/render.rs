@@ -71,9 +71,19 @@ impl FaultRow<'_> {
     pub fn repeated(&self) -> usize {
         self.records.iter().map(|record| record.repeated.len()).sum()
     }
+
+    /// In how many runs the later task lifted exclusions, since nothing else was left.
+    pub fn later_lifted(&self) -> usize {
+        self.records.iter().filter(|record| record.later.lifted).count()
+    }
+
+    /// Calls that failed in both tasks with something else expected of them, in all runs.
+    pub fn failed_otherwise(&self) -> usize {
+        self.records.iter().map(|record| record.failed_otherwise.len()).sum()
+    }
 }
 
-const COLUMNS: [&str; 14] = [
+const COLUMNS: [&str; 16] = [
     "scenario",
     "goal",
     "restart",
@@ -87,7 +97,9 @@ const COLUMNS: [&str; 14] = [
     "later_goal",
     "later_solved",
     "later_proposals",
+    "later_lifted",
     "repeated_mistakes",
+    "failed_otherwise",
 ];
 
 impl FaultsResult {
@@ -115,6 +127,15 @@ impl FaultsResult {
             "Of the scenarios in which a way is left, {with} were solved in every run with restart, {without} without; \
              {repeated} known mistakes were repeated in later tasks."
         );
+        let lifted: usize = rows.iter().map(FaultRow::later_lifted).sum();
+        let otherwise: usize = rows.iter().map(FaultRow::failed_otherwise).sum();
+        if lifted > 0 {
+            let _ = write!(
+                text,
+                " In {lifted} runs of later tasks nothing else was left and exclusions were lifted; {otherwise} calls \
+                 that had failed then failed again, with something else expected of them."
+            );
+        }
         if false_hope > 0 {
             let _ = write!(text, " {false_hope} were solved in which no way was expected.");
         }
@@ -139,7 +160,9 @@ impl FaultsResult {
                 later.to_owned(),
                 row.later_solved().to_string(),
                 row.later_proposals().to_string(),
+                row.later_lifted().to_string(),
                 row.repeated().to_string(),
+                row.failed_otherwise().to_string(),
             ]);
         }
         csv.into_text()
@@ -225,6 +248,8 @@ fn row_json(row: &FaultRow<'_>) -> Value {
         "why": row.why(),
         "later_solved": row.later_solved(),
         "later_proposals": row.later_proposals(),
+        "later_lifted": row.later_lifted(),
         "repeated_mistakes": row.repeated(),
+        "failed_otherwise": row.failed_otherwise(),
     })
 }

@@ -24,7 +24,7 @@ const CHOPPED_CARROT: &str = "chopped carrot in the blender";
 
 /// The scenarios of a quick run: worked around, worked around at the second attempt, not to be worked around, and an
 /// exception.
-pub(super) const QUICK: [&str; 4] = ["cutboard: cut", "cutboard, machete: cut", "blender: blend", "coconut"];
+pub(super) const QUICK: [&str; 4] = ["cutboard: cut", "cutboard, breadslicer: cut", "blender: blend", "coconut"];
 
 /// Something that is not as it was shown, and no state tells.
 #[derive(Debug, Clone, PartialEq)]

@@ -162,6 +162,8 @@ pub struct TableResult {
     pub actions: BTreeMap<Variant, usize>,
     /// The cells: by task, then by variant.
     pub cells: Vec<Cell>,
+    /// What came of each run.
+    pub records: BTreeMap<TableRun, TableRecord>,
 }
 
 /// Runs Table I, and writes `table.csv`, `table.json` and `table.md`.
@@ -180,7 +182,7 @@ pub fn table(options: &TableOptions, conduct: &Conduct<'_>) -> Result<TableResul
     let experiment = TableExperiment { options: *options, models, tasks };
     let records = carry_out(&experiment, conduct)?;
     let cells = cell::cells(&experiment.tasks, &records);
-    let result = TableResult { options: *options, transitions, actions, cells };
+    let result = TableResult { options: *options, transitions, actions, cells, records };
     result.write(conduct.folder)?;
     Ok(result)
 }

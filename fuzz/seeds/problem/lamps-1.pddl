@@ -1,0 +1,6 @@
+(define (problem one) (:domain lamps)
+  (:objects a b - room l m - lamp)
+  (:init (at a) (near a b) (near b home) (in l b) (in m home) (lit m) (not (lit l))
+    (= (total-cost) 0) (= (steps a b) 2) (= (steps b a) 2) (= (steps b home) 3) (= (steps home b) 3))
+  (:goal (and (lit l) (forall (?r - hall) (or (at ?r) (kept ?r))) (not (kept m)) (exists (?x - room) (at ?x))))
+  (:metric minimize (total-cost)))

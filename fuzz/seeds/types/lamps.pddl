@@ -1,0 +1,1 @@
+(:types room lamp - object hall - room)

@@ -1,0 +1,12 @@
+; Blocks whose `clear`, `above` and `tidy` are derived, one with a universal body, one from a derived one of two arguments.
+(define (domain derived-quantifiers)
+  (:requirements :adl :derived-predicates)
+  (:types block)
+  (:predicates (on ?a ?b - block) (table ?a - block) (clear ?a - block) (above ?a ?b - block) (tidy) (red ?a - block))
+  (:derived (clear ?a - block) (forall (?b - block) (not (on ?b ?a))))
+  (:derived (above ?a ?b - block) (or (on ?a ?b) (exists (?c - block) (and (on ?a ?c) (above ?c ?b)))))
+  (:derived (tidy) (not (exists (?a ?b - block) (and (red ?a) (not (red ?b)) (above ?a ?b)))))
+  (:action stack :parameters (?a ?b - block) :precondition (and (clear ?a) (clear ?b) (table ?a) (not (= ?a ?b)))
+    :effect (and (on ?a ?b) (not (table ?a))))
+  (:action unstack :parameters (?a - block) :precondition (and (clear ?a) (not (table ?a)))
+    :effect (and (table ?a) (forall (?b - block) (when (on ?a ?b) (not (on ?a ?b)))))))

@@ -1,0 +1,15 @@
+; Painting starts when every wall has a painter with some colour, and no two painters share a brush.
+(define (domain forall-exists)
+  (:requirements :adl)
+  (:types wall painter colour brush)
+  (:predicates (at ?p - painter ?w - wall) (has ?p - painter ?c - colour) (holds ?p - painter ?b - brush) (painted ?w - wall)
+    (started))
+  (:action place :parameters (?p - painter ?w - wall) :precondition (not (at ?p ?w))
+    :effect (and (at ?p ?w) (forall (?v - wall) (when (not (= ?v ?w)) (not (at ?p ?v))))))
+  (:action give :parameters (?p - painter ?c - colour) :precondition (not (has ?p ?c)) :effect (has ?p ?c))
+  (:action brush :parameters (?p - painter ?b - brush) :precondition () :effect (holds ?p ?b))
+  (:action start :parameters ()
+    :precondition (and
+      (forall (?w - wall) (exists (?p - painter ?c - colour) (and (at ?p ?w) (has ?p ?c) (exists (?b - brush) (holds ?p ?b)))))
+      (not (exists (?p ?q - painter ?b - brush) (and (not (= ?p ?q)) (holds ?p ?b) (holds ?q ?b)))))
+    :effect (and (started) (forall (?w - wall) (painted ?w)))))

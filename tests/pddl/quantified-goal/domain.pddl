@@ -1,0 +1,11 @@
+; Each box on a pad, no pad with two boxes, and some pad with a heavy one.
+(define (domain quantified-goal)
+  (:requirements :adl)
+  (:types box pad)
+  (:predicates (on ?b - box ?p - pad) (heavy ?b - box) (weak ?p - pad) (carried ?b - box))
+  (:action lift :parameters (?b - box ?p - pad)
+    :precondition (and (on ?b ?p) (not (exists (?c - box) (carried ?c))))
+    :effect (and (carried ?b) (not (on ?b ?p))))
+  (:action drop :parameters (?b - box ?p - pad)
+    :precondition (and (carried ?b) (imply (heavy ?b) (not (weak ?p))))
+    :effect (and (not (carried ?b)) (on ?b ?p))))

@@ -1,0 +1,12 @@
+; Three strata: what is flooded, what is dry since it is not, and who is safe since everything near is dry.
+(define (domain stratified-negation)
+  (:requirements :adl :derived-predicates)
+  (:types field)
+  (:predicates (spring ?f - field) (lower ?a ?b - field) (dam ?a ?b - field) (flooded ?f - field) (dry ?f - field) (safe ?f - field)
+    (house ?f - field) (sacks))
+  (:derived (flooded ?f - field) (or (spring ?f) (exists (?g - field) (and (flooded ?g) (lower ?f ?g) (not (dam ?g ?f))))))
+  (:derived (dry ?f - field) (not (flooded ?f)))
+  (:derived (safe ?f - field) (and (dry ?f) (forall (?g - field) (imply (lower ?g ?f) (dry ?g)))))
+  (:action fetch :parameters (?f - field) :precondition (and (dry ?f) (not (sacks))) :effect (sacks))
+  (:action build :parameters (?a ?b - field) :precondition (and (lower ?b ?a) (sacks) (not (dry ?a))) :effect (and (dam ?a ?b) (not (sacks))))
+  (:action settle :parameters (?f - field) :precondition (and (safe ?f) (not (exists (?g - field) (house ?g)))) :effect (house ?f)))

@@ -1,0 +1,11 @@
+; Walking costs nothing, riding does: cheapest is longest.
+(define (domain zero-costs)
+  (:requirements :typing :action-costs)
+  (:types spot)
+  (:predicates (at ?s - spot) (path ?a ?b - spot) (line ?a ?b - spot) (stamped))
+  (:functions (total-cost) - number (fare ?a ?b - spot) - number)
+  (:action walk :parameters (?a ?b - spot) :precondition (and (at ?a) (path ?a ?b))
+    :effect (and (not (at ?a)) (at ?b) (increase (total-cost) 0)))
+  (:action ride :parameters (?a ?b - spot) :precondition (and (at ?a) (line ?a ?b))
+    :effect (and (not (at ?a)) (at ?b) (stamped) (increase (total-cost) (fare ?a ?b))))
+  (:action rest :parameters () :precondition () :effect (and)))

@@ -1,0 +1,36 @@
+//! Learning from what was read.
+
+use typelift::learn::{self, evidence_of, learn, learn_dataset, observe};
+use typelift::model::{Evidence, strict};
+use typelift::world::Dataset;
+
+use super::domain::assert_kept;
+
+/// Whatever was read can be learned from; evidence is the same in any split, and merged in either order.
+pub(super) fn assert_learned(dataset: &Dataset) {
+    let whole = evidence_of(dataset);
+    let transitions: Vec<_> = dataset.transitions().collect();
+    let (first, second) = transitions.split_at(transitions.len() / 2);
+    let [first, second] = [first, second].map(|part| {
+        let mut evidence = Evidence::default();
+        part.iter().for_each(|transition| observe(&mut evidence, transition, &dataset.hierarchy));
+        evidence
+    });
+    assert_eq!(merged(&first, &second), whole);
+    assert_eq!(merged(&second, &first), whole);
+    for individual in [false, true] {
+        let options = learn::Options { individual, ..learn::Options::default() };
+        let learned = learn_dataset(dataset, &options).expect("all types are those of the hierarchy");
+        assert_eq!(learned.report.transitions, transitions.len() as u64);
+        assert_kept(&learned.model);
+        assert_kept(&strict(&learned.model));
+        let again = learn(&dataset.hierarchy, learned.model.evidence.clone(), &options).expect("as before");
+        assert_eq!(again.model.actions, learned.model.actions);
+    }
+}
+
+fn merged(first: &Evidence, second: &Evidence) -> Evidence {
+    let mut merged = first.clone();
+    merged.merge(second);
+    merged
+}

@@ -1,0 +1,26 @@
+//! Task files.
+
+use typelift::model::ParseConfig;
+use typelift::world::{Parser, read_task};
+
+use super::errors::{assert_printable, assert_shown};
+use super::sample;
+use super::scratch::in_file;
+
+/// What is read is written so that it reads the same; it is a planning task, or says why not.
+pub fn task(bytes: &[u8]) {
+    let task = match in_file(bytes, read_task) {
+        Ok(task) => task,
+        Err(error) => return assert_shown(&error, bytes),
+    };
+    let written = task.to_json();
+    let again = in_file(written.as_bytes(), read_task).unwrap_or_else(|error| panic!("{error}:\n{written}"));
+    assert_eq!(again, task);
+    assert_eq!(again.to_json(), written);
+    let mut parser = Parser::new(sample::hierarchy(), ParseConfig::default());
+    let predicates = task.goal.iter().map(|atom| (atom.predicate.clone(), atom.arity())).collect();
+    match task.task(&mut parser, &predicates) {
+        Ok(planned) => assert_eq!(planned.goal, task.goal),
+        Err(error) => assert_printable(&error.to_string()),
+    }
+}

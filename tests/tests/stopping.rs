@@ -1,0 +1,95 @@
+//! A search that is stopped goes on where it was: whenever it is stopped, and however often, the plans are those of a
+//! search that never is.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use typelift::model::{Budget, Plan, Stop};
+use typelift::plan::{Cut, Options, Outcome, Planner, Restrictions};
+use typelift_kitchen::{KitchenTask, tasks};
+use typelift_tests::{kitchen_model, planning_task};
+
+/// A budget that says stop at every `period`-th question, and how often it was asked.
+fn stopping(period: usize) -> (Budget, Arc<AtomicUsize>) {
+    let questions = Arc::new(AtomicUsize::new(0));
+    let asked = questions.clone();
+    let stop = move || (asked.fetch_add(1, Ordering::Relaxed) % period == period - 1).then_some(Stop::Time);
+    (Budget { stop: Some(Arc::new(stop)), ..Budget::default() }, questions)
+}
+
+/// The first plans, and how often the search was stopped.
+fn plans(planner: &mut Planner, wanted: usize, budget: &Budget) -> (Vec<Plan>, usize) {
+    let (mut plans, mut stops) = (Vec::new(), 0);
+    while plans.len() < wanted {
+        match planner.next_plan(budget) {
+            Outcome::Solved(plan) => plans.push(plan),
+            Outcome::OutOfTime | Outcome::OutOfMemory => stops += 1,
+            _ => break,
+        }
+    }
+    (plans, stops)
+}
+
+fn planner(task: &KitchenTask, wanted: usize, budget: &Budget) -> Result<Planner, Cut> {
+    let model = kitchen_model(false);
+    let asked = planning_task(&model, task, 0);
+    Planner::new(&model, &asked, &Restrictions::default(), &Options { plans: wanted, ..Options::default() }, budget)
+}
+
+fn task() -> KitchenTask {
+    tasks().into_iter().find(|task| task.name == "T1.4").expect("a task")
+}
+
+#[test]
+fn a_search_that_is_stopped_goes_on() {
+    for wanted in [1, 30] {
+        let unlimited = || planner(&task(), wanted, &Budget::unlimited()).expect("no limits");
+        let (expected, _) = plans(&mut unlimited(), wanted, &Budget::unlimited());
+        assert_eq!(expected.len(), wanted);
+        for period in [2, 3, 5] {
+            let (found, stops) = plans(&mut unlimited(), wanted, &stopping(period).0);
+            assert_eq!(found, expected, "stopped at every question number {period}");
+            assert!(stops > 0, "nothing was tested");
+        }
+    }
+}
+
+#[test]
+fn a_search_that_ran_out_of_memory_goes_on_with_more() {
+    let mut planner = planner(&task(), 30, &Budget::unlimited()).expect("no limits");
+    let mut bytes = 0;
+    let mut found = Vec::new();
+    let mut ends = 0;
+    while found.len() < 30 {
+        match planner.next_plan(&Budget { bytes: Some(bytes), ..Budget::default() }) {
+            Outcome::Solved(plan) => found.push(plan),
+            outcome => {
+                assert_eq!(outcome, Outcome::OutOfMemory);
+                ends += 1;
+                bytes += 10_000;
+            }
+        }
+    }
+    let mut unlimited = self::planner(&task(), 30, &Budget::unlimited()).expect("no limits");
+    assert_eq!(found, plans(&mut unlimited, 30, &Budget::unlimited()).0);
+    assert!(ends > 3, "nothing was tested");
+}
+
+#[test]
+fn whatever_comes_before_the_search_can_be_stopped_at_every_question() {
+    let (never, questions) = stopping(usize::MAX);
+    planner(&task(), 1, &never).expect("no stop");
+    let questions = questions.load(Ordering::Relaxed);
+    assert!(questions > 5, "{questions} questions: nothing was tested");
+    for number in 1..=questions {
+        let ended = planner(&task(), 1, &stopping(number).0).map(drop);
+        assert_eq!(ended, Err(Cut::Stopped(Stop::Time)), "question {number} of {questions}");
+    }
+}
+
+#[test]
+fn grounding_counts_what_it_holds() {
+    let task = task();
+    let fits = |bytes| planner(&task, 1, &Budget { bytes: Some(bytes), ..Budget::default() }).is_ok();
+    assert!(fits(100_000_000) && !fits(1_000));
+}
