@@ -23,6 +23,9 @@ fn every_command_has_help() {
         "lab table",
         "lab demonstrations",
         "lab faults",
+        "lab hierarchy",
+        "lab growth",
+        "lab report",
     ];
     let folder = Folder::new();
     for command in commands {

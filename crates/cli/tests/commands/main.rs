@@ -12,6 +12,7 @@ mod exporting;
 mod given;
 mod help;
 mod lab;
+mod lab_report;
 mod learning;
 mod limits;
 mod outputs;

@@ -50,8 +50,8 @@ pub fn violins(panels: &[Violins], horizontal: &str, vertical: &str) -> String {
         let corner = ((index % columns) as f64 * PANEL.0, (index / columns) as f64 * PANEL.1);
         draw(&mut svg, panel, corner, (horizontal, vertical), index % 4);
     }
-    let note = format!("shade: density (Gaussian kernel, bandwidth {BANDWIDTH}), each as wide");
-    let lines = [note.as_str(), "where it is widest; bar: median; n: the subsets of this size"];
+    let note = format!("shade: density (Gaussian kernel, bandwidth {BANDWIDTH}),");
+    let lines = [note.as_str(), "each as wide at its widest; bar: median; n: subsets"];
     for (y, line) in [6.0, 20.0].into_iter().zip(lines) {
         svg.text("small mute", (10.0, PANEL.1 * rows as f64 + y), Anchor::Start, line);
     }

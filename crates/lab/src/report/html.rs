@@ -9,7 +9,7 @@ pub(super) fn table(class: &str, head: &[&str], numbers: &[usize], rows: &[Vec<S
     let n = |column: usize| if numbers.contains(&column) { " class=\"n\"" } else { "" };
     let mut html = format!("<div class=\"wide\"><table class=\"{class}\"><thead><tr>");
     for (column, name) in head.iter().enumerate() {
-        let _ = write!(html, "<th{}>{}</th>", n(column), escape(name));
+        let _ = write!(html, "<th{}>{}</th>", n(column), escape(name).replace('+', "+<wbr>"));
     }
     html.push_str("</tr></thead><tbody>\n");
     for row in rows {

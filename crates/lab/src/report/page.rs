@@ -63,7 +63,7 @@ fn claims(judged: &[Judged]) -> String {
         };
         let _ = writeln!(
             html,
-            "<tr><td>{}</td><td class=\"mute\">{}</td><td data-name=\"ours\">{}</td><td>{verdict}</td></tr>",
+            "<tr><td>{}</td><td class=\"mute\">{}</td><td data-name=\"ours\">{}</td><td class=\"verdict\">{verdict}</td></tr>",
             escape(&claim.claim),
             escape(&claim.place),
             escape(ours)

@@ -18,6 +18,11 @@ pub(super) fn sections(results: &Results) -> Vec<(&'static str, &'static str, Op
     ]
 }
 
+/// `1 run`, `5 runs`.
+fn runs(count: u64) -> String {
+    format!("{count} run{}", if count == 1 { "" } else { "s" })
+}
+
 fn number(value: f64) -> String {
     let text = format!("{value:.2}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
@@ -64,9 +69,10 @@ fn of_table(result: &Table) -> String {
         tasks.into_iter().map(row).collect()
     };
     let mut html = paragraph(&format!(
-        "Plans proposed until one succeeded / its length, medians of {} runs in rooms from seed {} on; in brackets the \
+        "Plans proposed until one succeeded / its length, medians of {} in rooms from seed {} on; in brackets the \
          published cell where ours differs; - where no plan succeeded.",
-        result.runs, result.seed
+        runs(result.runs),
+        result.seed
     ));
     html += &table("", &head, &[1, 2, 3, 4], &rows(cell_text));
     if result.cells.iter().any(|cell| cell.seconds_mean.is_some()) {
