@@ -59,10 +59,10 @@ impl Progress for Bar {
     }
 
     fn ended(&self, run: &str, weight: u64) {
+        self.bar.inc(weight);
         self.show(|running| {
             running.remove(run);
         });
-        self.bar.inc(weight);
     }
 
     fn note(&self, text: &str) {

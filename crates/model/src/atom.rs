@@ -5,7 +5,7 @@ use std::fmt;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use thiserror::Error;
 
-use crate::Symbol;
+use crate::{Symbol, printable};
 
 /// The predicate of equality: `=(a,b)` holds if a and b are the same object. It stands in conditions only.
 pub const EQUALS: &str = "=";
@@ -38,13 +38,13 @@ pub enum Term {
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum AtomTextError {
     /// The text does not have the form `predicate(arg,arg)`.
-    #[error("`{text}` is not an atom of the form predicate(entity,entity)")]
+    #[error("`{}` is not an atom of the form predicate(entity,entity)", printable(text))]
     Form {
         /// The offending text.
         text: String,
     },
     /// A name is empty or holds a character that separates names.
-    #[error("`{name}` cannot be a name: {reason}")]
+    #[error("`{}` cannot be a name: {reason}", printable(name))]
     Name {
         /// The offending name.
         name: String,

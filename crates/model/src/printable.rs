@@ -4,7 +4,7 @@
 pub fn printable(text: impl Into<String>) -> String {
     let text = text.into();
     if text.contains(char::is_control) {
-        text.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect()
+        text.chars().map(|c| if c.is_control() { '\u{FFFD}' } else { c }).collect()
     } else {
         text
     }
