@@ -12,7 +12,7 @@ use crate::{
 };
 
 /// Preconditions that an action may have.
-const MOST_PRECONDITIONS: usize = 40_000;
+pub const MOST_PRECONDITIONS: usize = 40_000;
 
 impl ActionModel {
     /// Reads a model file.

@@ -37,6 +37,7 @@ mod unify;
 pub use action::{ActionSchema, Cost, Effect, GroundCall, LiftedCall, Literal, Parameter};
 pub use action_model::{ActionModel, ModelPddlNames, UniqueNames, describe_replacements, schema_name};
 pub use action_model_file::{MODEL_FORMAT, ModelFileError};
+pub use action_model_reader::MOST_PRECONDITIONS;
 pub use atom::{Atom, AtomTextError, EQUALS, GroundAtom, LiftedAtom, Term, check_name};
 pub use axiom::Axiom;
 pub use budget::{Budget, Stop};

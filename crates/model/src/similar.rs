@@ -2,11 +2,17 @@
 
 use crate::Symbol;
 
+/// Letters of the longest name that is compared with others: the time is the product of their lengths.
+const LONGEST: usize = 100;
+
 /// The name among `names` that differs least from `name`: in case only, or else in at most a third of its letters, or
-/// in one of two. Of several, the first.
+/// in one of two. Of several, the first. None for a very long name.
 pub fn nearest<'a>(name: &str, names: impl IntoIterator<Item = &'a Symbol>) -> Option<&'a Symbol> {
     let wanted: Vec<char> = name.to_lowercase().chars().collect();
     let limit = (wanted.len() / 3).max(usize::from(wanted.len() > 1));
+    if wanted.len() > LONGEST {
+        return None;
+    }
     names
         .into_iter()
         .filter(|candidate| candidate.as_str() != name)
@@ -55,5 +61,11 @@ mod tests {
         assert_eq!(near(""), None);
         assert_eq!(nearest("b", &["a", "B"].map(Symbol::new)).map(Symbol::as_str), Some("B"));
         assert_eq!(nearest("b", &["a", "c"].map(Symbol::new)), None);
+    }
+
+    #[test]
+    fn very_long_names_are_not_compared() {
+        let long = "a".repeat(1_000_000);
+        assert_eq!(nearest(&format!("{long}b"), &[Symbol::from(format!("{long}c"))]), None);
     }
 }

@@ -1,6 +1,6 @@
 //! Reads domains.
 
-use typelift_model::{EQUALS, Hierarchy, Symbol};
+use typelift_model::{EQUALS, Hierarchy, MOST_PARAMETERS, Symbol};
 
 use crate::definition::refuse_other_blocks;
 use crate::effect_reader::EffectReader;
@@ -100,6 +100,10 @@ fn read_signature(vocabulary: &Vocabulary, item: Sexpr<'_>, kind: &str) -> Resul
         return Err(error.with_hint(format!("Write `({kind} ?x …)`.")));
     };
     let parameters = read_variables(item, items, vocabulary)?.0;
+    if parameters.len() > MOST_PARAMETERS {
+        let error = item.error(format!("a {kind} with more than {MOST_PARAMETERS} arguments is not supported"));
+        return Err(error.as_unsupported());
+    }
     Ok(Signature { name: declared_name(name)?, parameters })
 }
 

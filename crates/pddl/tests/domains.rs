@@ -233,6 +233,10 @@ fn what_is_not_supported_is_named() {
         (action(":precondition (at start (dark))"), "conditions at a time are not supported"),
         (action(":duration (= ?duration 1)"), "`:duration` of an action is not supported"),
         (with("(:durative-action a)"), "`:durative-action` is not supported"),
+        (
+            format!("(define (domain d) (:predicates (p{})))", " ?x".repeat(257)),
+            "a predicate with more than 256 arguments is not supported",
+        ),
         (with("(:constraints (and))"), "`:constraints` is not supported"),
         (with("(:requirements :durative-actions)"), "requirement `:durative-actions` is not supported"),
         (with("(:requirements :strips :Preferences)"), "requirement `:preferences` is not supported"),

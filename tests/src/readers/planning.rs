@@ -45,7 +45,7 @@ pub(super) fn valid_plans(model: &ActionModel, task: &Task) -> Vec<(Plan, State)
 pub(super) fn assert_written_holds(model: &ActionModel, task: &Task, plan: &Plan, state: &State) {
     let text = written(model, plan);
     let lines = read_plan(&text).unwrap_or_else(|error| panic!("{}", error.render("plan", &text)));
-    match validate(model, task, &calls(lines)) {
+    match validate(model, task, &as_calls(lines)) {
         Ok(valid) => {
             assert_eq!((valid.plan.len(), valid.plan.cost()), (plan.len(), plan.cost()), "{text}");
             assert_eq!(valid.state, *state, "{text}");
@@ -55,7 +55,7 @@ pub(super) fn assert_written_holds(model: &ActionModel, task: &Task, plan: &Plan
 }
 
 /// The lines of a plan file as calls.
-pub(super) fn calls(lines: Vec<PlanLine>) -> Vec<GroundCall> {
+pub(super) fn as_calls(lines: Vec<PlanLine>) -> Vec<GroundCall> {
     lines.into_iter().map(|line| GroundCall { name: line.name, args: line.args }).collect()
 }
 

@@ -14,25 +14,29 @@ use super::{last_part, sample, text_of};
 /// holds, or an error that points at the text. The part before the problem is its domain.
 pub fn problem(bytes: &[u8]) {
     let text = text_of(bytes);
-    let (domain_text, problem_text) = match last_part(&text) {
-        (Some([domain]), problem) => (domain, problem),
-        (None, problem) => (sample::DOMAIN, problem),
+    let (given, problem) = last_part(&text);
+    let found = match given {
+        Some([domain]) => problem_of(domain, problem),
+        None => {
+            let (domain, model) = sample::domain();
+            checked_problem(problem, domain, model.clone())
+        }
     };
-    let Some((domain, model)) = checked_domain(domain_text) else { return };
-    if let Some((model, task)) = checked_problem(problem_text, &domain, domain_text, model) {
+    if let Some((model, task)) = found {
         for (plan, state) in valid_plans(&model, &task) {
             assert_written_holds(&model, &task, &plan, &state);
         }
     }
 }
 
+/// The same of a problem of this domain.
+pub(super) fn problem_of(domain: &str, problem: &str) -> Option<(ActionModel, Task)> {
+    let (domain, model) = checked_domain(domain)?;
+    checked_problem(problem, &domain, model)
+}
+
 /// The task of a text and the model for it, if there are any.
-pub(super) fn checked_problem(
-    text: &str,
-    domain: &Domain,
-    domain_text: &str,
-    mut model: ActionModel,
-) -> Option<(ActionModel, Task)> {
+pub(super) fn checked_problem(text: &str, domain: &Domain, mut model: ActionModel) -> Option<(ActionModel, Task)> {
     let problem = match read_problem(text, domain) {
         Ok(problem) => problem,
         Err(error) => {
@@ -53,7 +57,8 @@ pub(super) fn checked_problem(
             Some((model, task))
         }
         Err(error) => {
-            let text = if error.part.is_of_problem() { text } else { domain_text };
+            let (domain, is_of_problem) = (domain.to_string(), error.part.is_of_problem());
+            let text = if is_of_problem { text } else { &domain };
             assert_located(&error.locate(text), text);
             None
         }

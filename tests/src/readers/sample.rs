@@ -2,16 +2,31 @@
 
 use std::sync::OnceLock;
 
-use typelift::model::Hierarchy;
-use typelift::pddl::read_hierarchy;
+use typelift::model::{ActionModel, Hierarchy, Task};
+use typelift::pddl::{Domain, read_hierarchy};
 use typelift::world::ObjectTypes;
 
+use super::domain::checked_domain;
+use super::problem::checked_problem;
 use super::scratch::in_file;
 
-pub(super) const DOMAIN: &str = include_str!("../../../fuzz/seeds/domain/lamps.pddl");
-pub(super) const PROBLEM: &str = include_str!("../../../fuzz/seeds/problem/lamps-1.pddl");
+const DOMAIN: &str = include_str!("../../../fuzz/seeds/domain/lamps.pddl");
+const PROBLEM: &str = include_str!("../../../fuzz/seeds/problem/lamps-1.pddl");
 const OBJECTS: &str = "(:objects a b c - room l m - lamp h - hall)";
 const TYPES: &str = include_str!("../../../fuzz/seeds/types/lamps.pddl");
+
+/// A domain with its model.
+pub(super) fn domain() -> &'static (Domain, ActionModel) {
+    static KNOWN: OnceLock<(Domain, ActionModel)> = OnceLock::new();
+    KNOWN.get_or_init(|| checked_domain(DOMAIN).expect("a domain"))
+}
+
+/// A problem of that domain: its model and its task.
+pub(super) fn problem() -> &'static (ActionModel, Task) {
+    static KNOWN: OnceLock<(ActionModel, Task)> = OnceLock::new();
+    let (domain, model) = domain();
+    KNOWN.get_or_init(|| checked_problem(PROBLEM, domain, model.clone()).expect("a problem"))
+}
 
 /// The types of traces, and of the objects of trajectories.
 pub(super) fn hierarchy() -> Hierarchy {

@@ -1,9 +1,11 @@
 //! Task files.
 
+use std::path::Path;
+
 use typelift::model::ParseConfig;
 use typelift::world::{Parser, read_task};
 
-use super::errors::{assert_printable, assert_shown};
+use super::errors::assert_shown;
 use super::sample;
 use super::scratch::in_file;
 
@@ -21,6 +23,6 @@ pub fn task(bytes: &[u8]) {
     let predicates = task.goal.iter().map(|atom| (atom.predicate.clone(), atom.arity())).collect();
     match task.task(&mut parser, &predicates) {
         Ok(planned) => assert_eq!(planned.goal, task.goal),
-        Err(error) => assert_printable(&error.to_string()),
+        Err(error) => assert_shown(&error.in_file(Path::new("task"), &parser), bytes),
     }
 }

@@ -124,7 +124,7 @@ impl Flattening<'_, '_> {
 /// The effects of a schema, sorted, each once. `declared` are the action's own variables, `schema` is what its
 /// precondition made of them.
 pub(super) fn effects_of(
-    block: &Block<'_>,
+    block: &mut Block<'_>,
     changes: &Changes,
     declared: &[u32],
     schema: &Solved,
@@ -136,6 +136,7 @@ pub(super) fn effects_of(
             let own = [change.own.as_slice(), &case.exists].concat();
             block.check_parameters(schema.variables.len() + own.len())?;
             for typing in block.typings(&own)? {
+                block.count_literals(case.literals.len())?;
                 let literals = [case.literals.as_slice(), std::slice::from_ref(&change.literal)].concat();
                 let literals = in_schema(&literals, declared, &own, schema);
                 let rigid = schema.variables.len();

@@ -22,12 +22,15 @@ pub(super) struct Inventions {
     /// The axioms, of stated and of invented predicates; the strata are still to be found.
     pub(super) axioms: Vec<Axiom>,
     known: BTreeMap<Vec<Rule>, Symbol>,
+    /// The literals that were gone through.
+    literals: usize,
 }
 
 impl Inventions {
     /// None yet, for a model that uses these names for predicates and functions.
     pub(super) fn new(used: impl IntoIterator<Item = Symbol>) -> Self {
-        Self { names: FreshNames::with(used), predicates: BTreeMap::new(), axioms: Vec::new(), known: BTreeMap::new() }
+        let names = FreshNames::with(used);
+        Self { names, predicates: BTreeMap::new(), axioms: Vec::new(), known: BTreeMap::new(), literals: 0 }
     }
 
     /// A new predicate without axioms.
@@ -45,6 +48,9 @@ impl Inventions {
 }
 
 impl Block<'_> {
+    /// What a case counts besides its literals.
+    const EACH_CASE: usize = 3;
+
     /// An atom of a derived predicate that holds if and only if one of the cases does; `None` if none ever can.
     /// Its arguments are the variables that the cases mention and do not own.
     pub(super) fn invent(&mut self, kind: &str, cases: &[Case]) -> Result<Option<LiftedAtom>, CompileError> {
@@ -90,6 +96,7 @@ impl Block<'_> {
         for case in cases {
             let variables = [head, &case.exists].concat();
             for typing in self.typings(&variables)? {
+                self.count_literals(case.literals.len())?;
                 let Some(axiom) = axiom(self.world, predicate, head.len(), &variables, typing, case) else { continue };
                 self.check_parameters(axiom.parameters.len())?;
                 if seen.insert(rule(&axiom)) {
@@ -98,6 +105,17 @@ impl Block<'_> {
             }
         }
         Ok(axioms)
+    }
+
+    /// That a model does not become too large, with these literals of one more case.
+    pub(super) fn count_literals(&mut self, number: usize) -> Result<(), CompileError> {
+        let (literals, most) = (&mut self.inventions.literals, self.world.limits.literals);
+        *literals = literals.saturating_add(number).saturating_add(Self::EACH_CASE);
+        if *literals <= most {
+            return Ok(());
+        }
+        let message = format!("with it, the domain has more than {most} literals when all cases are written out");
+        Err(self.error(message).not_supported())
     }
 
     /// That there are not too many parameters for a model.

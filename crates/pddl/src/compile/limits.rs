@@ -16,10 +16,20 @@ pub(super) struct Limits {
     pub(super) schemas: usize,
     /// The effects that a schema may have.
     pub(super) effects: usize,
+    /// The literals that may be gone through in all cases of all conditions, and what is added for each case.
+    pub(super) literals: usize,
 }
 
 impl Default for Limits {
     fn default() -> Self {
-        Self { cases: 64, written_out: 100_000, goal: 1_000_000, combinations: 1_000, schemas: 1_000, effects: 100_000 }
+        Self {
+            cases: 64,
+            written_out: 100_000,
+            goal: 1_000_000,
+            combinations: 1_000,
+            schemas: 1_000,
+            effects: 100_000,
+            literals: 3_000_000,
+        }
     }
 }

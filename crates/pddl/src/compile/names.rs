@@ -1,12 +1,16 @@
 //! Names that nothing else has, neither as they are written nor as PDDL spells them.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use typelift_model::{PddlNames, Symbol};
 
 /// The names of one kind that are in use.
 #[derive(Debug, Clone, Default)]
-pub(super) struct FreshNames(BTreeSet<Symbol>);
+pub(super) struct FreshNames {
+    used: BTreeSet<Symbol>,
+    /// For each base, a number below which all are in use from the one on that was asked for first.
+    next: BTreeMap<(String, usize), usize>,
+}
 
 impl FreshNames {
     /// With names that are in use already.
@@ -25,13 +29,15 @@ impl FreshNames {
 
     /// `base` with the first number from `first` that makes it new.
     pub(super) fn numbered(&mut self, base: &str, first: usize) -> Symbol {
-        let mut number = first;
+        let key = (base.to_owned(), first);
+        let mut number = self.next.get(&key).copied().unwrap_or(first);
         loop {
             let name = Symbol::from(format!("{base}-{number}"));
+            number += 1;
             if self.take(&name) {
+                self.next.insert(key, number);
                 return name;
             }
-            number += 1;
         }
     }
 
@@ -39,7 +45,7 @@ impl FreshNames {
     fn take(&mut self, name: &Symbol) -> bool {
         // One name alone collides with nothing.
         let pddl = PddlNames::fold("name", [name]).ok().and_then(|names| names.pddl(name.as_str()).cloned());
-        self.0.insert(pddl.unwrap_or_else(|| name.clone()))
+        self.used.insert(pddl.unwrap_or_else(|| name.clone()))
     }
 }
 
@@ -55,5 +61,14 @@ mod tests {
         assert_eq!(names.fresh(&Symbol::new("a_b")), "a_b-2");
         assert_eq!(names.numbered("forall-go", 1), "forall-go-1");
         assert_eq!(names.numbered("forall-go", 1), "forall-go-2");
+        assert_eq!(names.numbered("go", 1), "go-1");
+        assert_eq!(names.numbered("go", 2), "go-4");
+    }
+
+    #[test]
+    fn many_names_of_one_base_are_numbered_soon() {
+        let mut names = FreshNames::default();
+        let last = (0..100_000).map(|_| names.fresh(&Symbol::new("x"))).last();
+        assert_eq!(last, Some(Symbol::new("x-100000")));
     }
 }

@@ -4,7 +4,7 @@
 
 use std::collections::BTreeSet;
 
-use typelift_model::{ActionSchema, Cost, LiftedAtom, LiftedCall, Literal, Parameter, Provenance, Symbol, Term};
+use typelift_model::{ActionSchema, Cost, LiftedAtom, LiftedCall, Literal, MOST_PRECONDITIONS, Parameter, Provenance, Symbol, Term};
 
 use super::block::{Block, Visible, World};
 use super::case::Case;
@@ -76,11 +76,16 @@ fn schema(
     variables: &[u32],
     typing: Vec<Parameter>,
 ) -> Result<Option<ActionSchema>, CompileError> {
+    block.count_literals(case.literals.len())?;
     let Some(solved) = solve(block.world, typing, 0, &renumbered(&case.literals, variables)) else { return Ok(None) };
     block.check_parameters(solved.variables.len())?;
     let effects = effects_of(block, &compiled.changes, &compiled.declared, &solved)?;
     let functions = compiled.changes.functions.iter().map(|f| in_case(f, &compiled.declared, &solved)).collect();
     let (distinct, preconditions) = split_distinct(&solved.literals);
+    if preconditions.len() > MOST_PRECONDITIONS {
+        let message = format!("its precondition has more than {MOST_PRECONDITIONS} literals");
+        return Err(block.error(message).not_supported());
+    }
     Ok(Some(ActionSchema {
         name: compiled.name.clone(),
         call: LiftedCall { name: compiled.name.clone(), args: solved.image[..compiled.declared.len()].to_vec() },

@@ -120,6 +120,25 @@ fn too_many_combinations_of_types_are_refused() {
 }
 
 #[test]
+fn a_model_that_would_be_too_large_is_refused() {
+    let limits = Limits { literals: 1_000, ..Limits::default() };
+    let error = |action| domain_within(&domain(vec![action]), limits).expect_err("too large");
+    // Nine schemas of nine ways each to have an effect, for each of fifty effects.
+    let typed = "v w - truck|boat|place";
+    let effect = PddlEffect::And((0..50).map(|_| each("x y - truck|boat|place", add("wet"))).collect());
+    let large = error(action("go", typed, and([]), effect));
+    assert_eq!(
+        large.to_string(),
+        "action `go`: with it, the domain has more than 1000 literals when all cases are written out"
+    );
+    assert!(large.unsupported);
+    // Nine axioms for each of fifty cases.
+    let ways = (0..50).map(|_| exists("x y - truck|boat|place", not(is("clean ?x"))));
+    let condition = Formula::Or(ways.collect());
+    assert!(error(action("go", "", forall("z - truck", condition), add("wet"))).unsupported);
+}
+
+#[test]
 fn new_names_are_new() {
     let condition = forall("v - truck", is("clean ?v"));
     let mut domain =
