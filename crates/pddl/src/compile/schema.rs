@@ -4,7 +4,9 @@
 
 use std::collections::BTreeSet;
 
-use typelift_model::{ActionSchema, Cost, LiftedAtom, LiftedCall, Literal, MOST_PRECONDITIONS, Parameter, Provenance, Symbol, Term};
+use typelift_model::{
+    ActionSchema, Cost, LiftedAtom, LiftedCall, Literal, MOST_PRECONDITIONS, Parameter, Provenance, Symbol, Term,
+};
 
 use super::block::{Block, Visible, World};
 use super::case::Case;
