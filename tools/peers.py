@@ -83,7 +83,7 @@ class Planner:
 
 
 # Heuristics and searches, tried in turn: on one plateau or another, each gets lost.
-PYPERPLAN = [("hff", "gbf"), ("hff", "wastar"), ("hsa", "gbf")]
+PYPERPLAN = [("lmcut", "gbf"), ("hff", "gbf"), ("hff", "wastar"), ("hsa", "gbf")]
 
 
 def pyperplan(seconds):
