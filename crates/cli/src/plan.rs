@@ -187,11 +187,12 @@ impl Plan {
     fn begin(&self, clock: Clock, budget: &Budget) -> Result<Begun, Failure> {
         keep_inputs(self.output.as_deref(), [&self.model, &self.task].into_iter().chain(&self.types))?;
         let input = read_model_input(&self.model, self.types.as_ref())?;
-        let default_output = input.is_given().then(|| PathBuf::from(DEFAULT_OUTPUT));
+        let is_given = input.is_given();
+        let default_output = is_given.then(|| PathBuf::from(DEFAULT_OUTPUT));
         let output = self.output.clone().or(default_output);
         let (model, task) = input.read_planning_task(&self.task)?;
         let read = clock.elapsed();
-        let options = self.options(self.imagine)?;
+        let options = self.options(self.imagine, is_given)?;
         let proposal = match propose(&model, &task, &Restrictions::default(), &options, budget) {
             Err(ProposeError::Cut(cut)) => Err(cut),
             proposal => Ok(proposal?),
@@ -199,8 +200,9 @@ impl Plan {
         Ok(Begun { model, task, output, read, proposal })
     }
 
-    fn options(&self, imagine: bool) -> Result<Options, Failure> {
-        let plan = typelift::plan::Options { plans: self.plans as usize, ..Default::default() };
+    fn options(&self, imagine: bool, is_given: bool) -> Result<Options, Failure> {
+        let strategy = self.planner.strategy(is_given);
+        let plan = typelift::plan::Options { strategy, plans: self.plans as usize, ..Default::default() };
         Ok(Options {
             imagine: imagine.then(imagine::Options::default),
             strict: !self.plain,
@@ -283,7 +285,7 @@ impl Plan {
             return;
         }
         let limited = Budget { expansions: Some(HINT_EXPANSIONS), ..budget.clone() };
-        let Ok(options) = self.options(true) else { return };
+        let Ok(options) = self.options(true, false) else { return };
         let imagined = propose(model, task, &Restrictions::default(), &options, &limited);
         if let Ok(Proposal { outcome: Outcome::Solved(plan), .. }) = imagined {
             anstream::eprintln!(

@@ -1,10 +1,10 @@
-//! `--planner`: somebody else's planner in the place of ours.
+//! Who plans, and how: `--search`, or somebody else's planner with `--planner`.
 
 use std::sync::Arc;
 
 use typelift::bridge::PlannerCommand;
 use typelift::pddl::Level;
-use typelift::plan::ExternalPlanner;
+use typelift::plan::{ExternalPlanner, Strategy};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -12,6 +12,10 @@ use crate::failure::Failure;
 /// Which planner plans.
 #[derive(Debug, Clone, clap::Args)]
 pub(crate) struct PlannerOption {
+    /// Search like this: ordered-landmarks, lama, lazy-ff, lazy-landmarks, or for an optimal plan astar-lmcut,
+    /// astar-blind [default: ordered-landmarks for learned models, lama for PDDL]
+    #[arg(long, value_name = "SEARCH", conflicts_with = "planner")]
+    search: Option<Strategy>,
     /// Have this command plan; it is given {domain} and {problem}, and writes {plan}
     #[arg(long, value_name = "COMMAND")]
     planner: Option<String>,
@@ -42,6 +46,11 @@ impl PlannerOption {
     /// Whether there is one.
     pub(crate) fn is_given(&self) -> bool {
         self.planner.is_some()
+    }
+
+    /// How typelift's own planner searches, with a model that was given as PDDL or one that was learned.
+    pub(crate) fn strategy(&self, is_given: bool) -> Strategy {
+        self.search.unwrap_or(if is_given { Strategy::Lama } else { Strategy::OrderedLandmarks })
     }
 
     /// The planner, if there is one.

@@ -135,7 +135,7 @@ impl Run {
                 TaskInput::Problem(problem) => (path, Arc::new(problem.0), self.reset_to_problem(path), problem.1),
             });
         }
-        let options = self.options()?;
+        let options = self.options(input.is_given())?;
         let mut world = self.open(&interrupt)?;
         if self.restart && !world.can_reset() {
             return Err(Failure::bad_input(format!("--restart: {} cannot be reset", world.name()))
@@ -211,8 +211,10 @@ impl Run {
         Ok(Box::new(bridge))
     }
 
-    fn options(&self) -> Result<Options, Failure> {
+    fn options(&self, is_given: bool) -> Result<Options, Failure> {
+        let strategy = self.planner.strategy(is_given);
         Ok(Options {
+            plan: typelift::plan::Options { strategy, ..Default::default() },
             planner: self.planner.open()?,
             imagine: self.imagine.then(imagine::Options::default),
             strict: !self.plain,

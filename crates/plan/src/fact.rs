@@ -7,7 +7,7 @@ use typelift_model::{GroundAtom, HashMap, Symbol, Task, TypeId};
 pub struct FactId(u32);
 
 impl FactId {
-    fn new(index: usize) -> Self {
+    pub(crate) fn new(index: usize) -> Self {
         Self(index as u32)
     }
 

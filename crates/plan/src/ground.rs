@@ -8,9 +8,9 @@ use std::collections::BTreeSet;
 use typelift_model::{ActionModel, ActionSchema, Budget, GroundAtom, HashMap, Step, Symbol, Task};
 
 use crate::Restrictions;
-use crate::axiom::Axioms;
 use crate::distinct::Distinct;
 use crate::fact::{FactId, Facts};
+use crate::fdr::{Assignment, Axioms, FOLLOWS, Place};
 use crate::poll::Poll;
 use crate::reach::{Cut, RawOp, Reached, reach};
 
@@ -84,7 +84,10 @@ pub struct GroundTask {
     ops: Vec<Op>,
     /// How many of `ops` are actions.
     actions: usize,
-    axioms: Axioms,
+    /// The stratum of each axiom.
+    strata: Vec<u32>,
+    /// The derived facts, sorted.
+    derived: Vec<FactId>,
     init: Vec<FactId>,
     goal: Vec<FactId>,
     negative_goal: Vec<FactId>,
@@ -152,8 +155,10 @@ pub fn ground(
         strata.push(model.axioms[axiom.schema].stratum);
         ops.push(resolve(axiom, Vec::new(), 0, &facts, false));
     }
-    let axioms = Axioms::new(&ops[actions..], &strata, &facts);
-    let init = axioms.closed(&init, facts.len());
+    let mut derived: Vec<FactId> = ops[actions..].iter().flat_map(|axiom| &axiom.adds).copied().collect();
+    derived.sort_unstable();
+    derived.dedup();
+    let init = closed(init, ops[actions..].iter().zip(strata.iter().copied()), &derived, facts.len());
     let (goal_atoms, negative_goal_atoms) = (task.goal.clone(), task.negative_goal.clone());
     let schemas = model.actions.clone();
     Ok(GroundTask {
@@ -161,7 +166,8 @@ pub fn ground(
         facts,
         ops,
         actions,
-        axioms,
+        strata,
+        derived,
         init,
         goal,
         negative_goal,
@@ -171,6 +177,26 @@ pub fn ground(
         ops_before_deduplication,
         bytes,
     })
+}
+
+/// Facts with those that follow from them, which come last.
+fn closed<'a>(
+    mut init: Vec<FactId>,
+    axioms: impl Iterator<Item = (&'a Op, u32)> + Clone,
+    derived: &[FactId],
+    facts: usize,
+) -> Vec<FactId> {
+    if derived.is_empty() {
+        return init;
+    }
+    let place = |fact: FactId| Place::At(Assignment { variable: fact.index() as u32, value: FOLLOWS });
+    let mut values = vec![1; facts];
+    for fact in &init {
+        values[fact.index()] = FOLLOWS;
+    }
+    Axioms::new(axioms, place).close(&mut values);
+    init.extend(derived.iter().filter(|fact| values[fact.index()] == FOLLOWS));
+    init
 }
 
 /// The place of each schema in the order in which successors are tried.
@@ -246,9 +272,19 @@ impl GroundTask {
         self.ops.iter().enumerate().map(|(i, op)| (OpId::new(i), op))
     }
 
-    /// How derived facts follow.
-    pub(crate) fn axioms(&self) -> &Axioms {
-        &self.axioms
+    /// The ground axioms, as actions that add their heads, each with its stratum.
+    pub(crate) fn axioms(&self) -> impl Iterator<Item = (&Op, u32)> + Clone {
+        self.ops[self.actions..].iter().zip(self.strata.iter().copied())
+    }
+
+    /// Whether a fact follows from others.
+    pub(crate) fn derives(&self, fact: FactId) -> bool {
+        self.derived.binary_search(&fact).is_ok()
+    }
+
+    /// The tables of objects, predicates and facts.
+    pub(crate) fn facts(&self) -> &Facts {
+        &self.facts
     }
 
     /// One ground action, or axiom.
@@ -264,11 +300,6 @@ impl GroundTask {
     /// The bytes that the ground actions hold, roughly.
     pub(crate) fn bytes(&self) -> u64 {
         self.bytes
-    }
-
-    /// The number of ground axioms.
-    pub(crate) fn axiom_count(&self) -> usize {
-        self.ops.len() - self.actions
     }
 
     /// The number of ground actions with those that only repeat another's call, preconditions and effect.

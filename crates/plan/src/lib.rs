@@ -1,33 +1,38 @@
-//! Planning as heuristic search: grounding, relaxed reachability, landmarks, A*, and why there is no plan.
+//! Planning as heuristic search: grounding, finite-domain representation, landmarks, heuristics, searches, and why there
+//! is no plan.
 //!
 //! The data flows through the files in this order:
 //!
 //! ```text
-//! ActionModel, Task, Restrictions ─▶ [reach] ─▶ [ground] GroundTask ─▶ [landmark] sequences ─▶ [heuristic]
-//!                                                        └──────────▶ [successor] ─▶ [search] ─▶ Plan
+//! ActionModel, Task, Restrictions ─▶ [reach] ─▶ [ground] GroundTask ─▶ [fdr] variables ─┬▶ [relaxation] ─▶ [landmark]
+//!                                                                                       ▼        └─▶ [heuristic] ◀┘
+//!                                                         Plan ◀─ [strategy] ◀─ [search] ◀───────────────┘
 //! ```
 //!
 //! This crate has never heard of learning or imagination: it plans with whatever actions it is given.
 #![deny(missing_docs)]
 
-mod axiom;
 mod distinct;
 mod emit;
 mod explain;
 mod external;
 mod fact;
+mod fdr;
 mod ground;
-pub mod heuristic;
+mod heuristic;
 mod landmark;
+mod lists;
 mod memory;
 mod pattern;
 mod planner;
 mod poll;
 mod reach;
+mod relaxation;
 mod restrict;
 mod restricted;
 mod search;
-mod successor;
+mod strategy;
+mod symmetry;
 
 pub use explain::{Explanation, Misfit, Nearest, UnreachableGoal};
 pub use external::{ExternalFailure, ExternalPlanner};
@@ -38,3 +43,4 @@ pub use planner::{Options, Planner};
 pub use reach::Cut;
 pub use restrict::{Ban, Exclusion, Restrictions};
 pub use search::{Outcome, Report};
+pub use strategy::Strategy;

@@ -1,38 +1,38 @@
-//! The paper's heuristic: ordered landmarks not yet passed, with penalties.
+//! The paper's heuristic: landmarks in the order of their sequences, one pointer a sequence.
 //!
-//! Each landmark sequence has a pointer; it moves on while the landmark it points at holds. The estimate is the
-//! number of landmarks from the pointers on, plus 1 if the action that led here touches no object of the goal (but
+//! A pointer moves on while the landmark it points to holds; what it passed stays passed. h is the number of
+//! landmarks from the pointers on, plus 1 if the action that led here touches no object of the goal (but
 //! for the actor), plus 1 if it passed no landmark. Landmark counting is after Richter and Westphal (2010), the
 //! strict order within a sequence and the penalties are the paper's. Path dependent, not admissible, not safe as a
-//! dead-end detector: it never says that a state is hopeless.
+//! dead-end detector: it never says that a state is hopeless. Conditional effects and derived predicates count as far as
+//! landmarks do.
 
-use crate::ground::Op;
+use super::{Heuristic, Reached, Step};
+use crate::fact::FactId;
+use crate::fdr::{Fdr, Values};
 use crate::landmark::LandmarkSequence;
-use crate::successor::holds;
-
-use super::Heuristic;
 
 /// Counts landmarks not yet passed.
 #[derive(Debug)]
-pub struct OrderedLandmarks {
-    sequences: Vec<LandmarkSequence>,
+pub(crate) struct OrderedLandmarks {
+    sequences: Vec<Vec<FactId>>,
 }
 
 impl OrderedLandmarks {
     /// The heuristic over these sequences.
-    pub fn new(sequences: Vec<LandmarkSequence>) -> Self {
-        Self { sequences }
+    pub(crate) fn new(sequences: Vec<LandmarkSequence>) -> Self {
+        Self { sequences: sequences.into_iter().map(|sequence| sequence.facts).collect() }
     }
 
-    fn advance(&self, state: &[u64], pointers: &mut [u32]) -> (u32, bool) {
+    fn advance(&self, task: &Fdr, values: &Values, pointers: &mut [u32]) -> (u32, bool) {
         let (mut left, mut passed) = (0, false);
-        for (sequence, pointer) in self.sequences.iter().zip(pointers) {
+        for (facts, pointer) in self.sequences.iter().zip(pointers) {
             let start = *pointer;
-            while sequence.facts.get(*pointer as usize).is_some_and(|&fact| holds(state, fact)) {
+            while facts.get(*pointer as usize).is_some_and(|&fact| task.holds(values, fact)) {
                 *pointer += 1;
             }
             passed |= *pointer > start;
-            left += sequence.facts.len() as u32 - *pointer;
+            left += facts.len() as u32 - *pointer;
         }
         (left, passed)
     }
@@ -43,14 +43,13 @@ impl Heuristic for OrderedLandmarks {
         self.sequences.len()
     }
 
-    fn initial(&self, state: &[u64], memory: &mut [u32]) -> u32 {
-        memory.fill(0);
-        self.advance(state, memory).0
-    }
-
-    fn successor(&self, predecessor: &[u32], op: &Op, state: &[u64], memory: &mut [u32]) -> u32 {
-        memory.copy_from_slice(predecessor);
-        let (left, passed) = self.advance(state, memory);
-        left + u32::from(!op.touches_goal) + u32::from(!passed)
+    fn estimate(&mut self, task: &Fdr, reached: Reached<'_>, memory: &mut [u32]) -> Option<u32> {
+        let Some(Step { action, memory: before, .. }) = reached.by else {
+            memory.fill(0);
+            return Some(self.advance(task, reached.values, memory).0);
+        };
+        memory.copy_from_slice(before);
+        let (left, passed) = self.advance(task, reached.values, memory);
+        Some(left + u32::from(!task.actions.touches_goal[action as usize]) + u32::from(!passed))
     }
 }

@@ -1,0 +1,173 @@
+//! The FF heuristic (Hoffmann and Nebel, *The FF planning system*, JAIR 14, 2001): the cost of a plan for the delete
+//! relaxation, here made of the best supporters by the additive heuristic (Bonet and Geffner 2001; Keyder and Geffner 2008).
+//!
+//! Not admissible. A state that it calls a dead end is one. Conditional effects are relaxed actions of their own, of which
+//! an action in the relaxed plan is paid once; derived facts follow without cost, their negations by what blocks their
+//! axioms. Preferred are the actions of the relaxed plan whose preconditions hold.
+
+use std::sync::Arc;
+
+use super::bucket_queue::BucketQueue;
+use super::undominated::Undominated;
+use super::{CostMeasure, Heuristic, Reached};
+use crate::fdr::{ActionIndex, Fdr};
+use crate::relaxation::{Prop, Relaxation, RelaxedIndex};
+
+const UNREACHED: u32 = u32::MAX;
+const NOBODY: RelaxedIndex = RelaxedIndex::MAX;
+
+/// A relaxed action while the costs are computed.
+#[derive(Debug, Clone, Copy)]
+struct Progress {
+    /// Preconditions not reached yet.
+    missing: u32,
+    /// Its cost and its reached preconditions'.
+    cost: u32,
+}
+
+/// Relaxed plans.
+#[derive(Debug)]
+pub(crate) struct Ff {
+    relaxation: Arc<Relaxation>,
+    relaxed: Undominated,
+    /// The cost of each action.
+    action_costs: Vec<u32>,
+    start: Vec<Progress>,
+    progress: Vec<Progress>,
+    without_preconditions: Vec<RelaxedIndex>,
+    prop_costs: Vec<u32>,
+    supporters: Vec<RelaxedIndex>,
+    is_goal: Vec<bool>,
+    queue: BucketQueue,
+    /// When each proposition and action was last seen in a relaxed plan.
+    seen_props: Vec<u32>,
+    seen_actions: Vec<u32>,
+    now: u32,
+    stack: Vec<Prop>,
+    preferred: Vec<ActionIndex>,
+}
+
+impl Ff {
+    pub(crate) fn new(task: &Fdr, relaxation: Arc<Relaxation>, measure: CostMeasure) -> Self {
+        let action_costs = measure.of(task);
+        let relaxed = Undominated::of(&relaxation, &action_costs);
+        let missing = relaxed.preconditions.iter().map(|list| list.len() as u32);
+        let start: Vec<Progress> =
+            missing.zip(&relaxed.costs).map(|(missing, &cost)| Progress { missing, cost }).collect();
+        let mut is_goal = vec![false; relaxation.len()];
+        for &goal in &relaxation.goal {
+            is_goal[goal as usize] = true;
+        }
+        Self {
+            progress: start.clone(),
+            without_preconditions: (0..start.len() as u32).filter(|&i| start[i as usize].missing == 0).collect(),
+            start,
+            prop_costs: vec![UNREACHED; relaxation.len()],
+            supporters: vec![NOBODY; relaxation.len()],
+            is_goal,
+            queue: BucketQueue::default(),
+            seen_props: vec![0; relaxation.len()],
+            seen_actions: vec![0; action_costs.len()],
+            now: 0,
+            stack: Vec::new(),
+            preferred: Vec::new(),
+            action_costs,
+            relaxed,
+            relaxation,
+        }
+    }
+
+    fn enqueue(&mut self, prop: Prop, cost: u32, supporter: RelaxedIndex) {
+        let known = &mut self.prop_costs[prop as usize];
+        if cost < *known {
+            *known = cost;
+            self.supporters[prop as usize] = supporter;
+            self.queue.push(cost, prop);
+        }
+    }
+
+    /// The additive heuristic's costs, until all goals are reached; whether they are.
+    fn explore(&mut self, task: &Fdr, reached: Reached<'_>) -> bool {
+        let relaxation = Arc::clone(&self.relaxation);
+        self.progress.copy_from_slice(&self.start);
+        self.prop_costs.fill(UNREACHED);
+        self.queue.clear();
+        for prop in relaxation.held(task, reached.values) {
+            self.enqueue(prop, 0, NOBODY);
+        }
+        for i in 0..self.without_preconditions.len() {
+            let relaxed = self.without_preconditions[i];
+            self.achieve(relaxed, self.start[relaxed as usize].cost);
+        }
+        let mut goals_left = relaxation.goal.len();
+        if goals_left == 0 {
+            return true;
+        }
+        while let Some((cost, prop)) = self.queue.pop() {
+            if self.prop_costs[prop as usize] < cost {
+                continue;
+            }
+            if self.is_goal[prop as usize] {
+                goals_left -= 1;
+                if goals_left == 0 {
+                    return true;
+                }
+            }
+            for i in self.relaxed.needed_by.range(prop as usize) {
+                let relaxed = self.relaxed.needed_by.item(i);
+                let progress = &mut self.progress[relaxed as usize];
+                progress.cost = progress.cost.saturating_add(cost);
+                progress.missing -= 1;
+                if progress.missing == 0 {
+                    let cost = progress.cost.min(UNREACHED - 1);
+                    self.achieve(relaxed, cost);
+                }
+            }
+        }
+        false
+    }
+
+    /// Reaches what a relaxed action adds.
+    fn achieve(&mut self, relaxed: RelaxedIndex, cost: u32) {
+        for i in self.relaxed.adds.range(relaxed as usize) {
+            self.enqueue(self.relaxed.adds.item(i), cost, relaxed);
+        }
+    }
+
+    /// The cost of the relaxed plan that the supporters make.
+    fn relaxed_plan(&mut self) -> u32 {
+        self.now += 1;
+        let mut total: u32 = 0;
+        self.stack.extend_from_slice(&self.relaxation.goal);
+        while let Some(prop) = self.stack.pop() {
+            if std::mem::replace(&mut self.seen_props[prop as usize], self.now) == self.now {
+                continue;
+            }
+            let supporter = self.supporters[prop as usize];
+            if supporter == NOBODY {
+                continue;
+            }
+            let supporter = supporter as usize;
+            self.stack.extend_from_slice(self.relaxed.preconditions.get(supporter));
+            let Some(action) = self.relaxed.action[supporter] else { continue };
+            if self.progress[supporter].cost == self.relaxed.costs[supporter] {
+                self.preferred.push(action);
+            }
+            if std::mem::replace(&mut self.seen_actions[action as usize], self.now) != self.now {
+                total = total.saturating_add(self.action_costs[action as usize]).min(UNREACHED - 1);
+            }
+        }
+        total
+    }
+}
+
+impl Heuristic for Ff {
+    fn estimate(&mut self, task: &Fdr, reached: Reached<'_>, _memory: &mut [u32]) -> Option<u32> {
+        self.preferred.clear();
+        self.explore(task, reached).then(|| self.relaxed_plan())
+    }
+
+    fn preferred(&self) -> &[ActionIndex] {
+        &self.preferred
+    }
+}

@@ -1,0 +1,241 @@
+//! A*: f = g + h, smaller h first among equal f, then first in first out. The first goal state popped wins; with an
+//! admissible heuristic its plan is a cheapest one, else nothing is claimed.
+//!
+//! A node is a state together with the heuristic's memory. A node reached again on a smaller g is reopened.
+//! The search can be continued for further plans: of each node up to `paths` ways that differ in their multiset of
+//! actions are kept (with one, this is the plain search), and a plan is new if its multiset of actions is.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use typelift_model::{Budget, HashSet};
+
+use super::{Found, Outcome, Report, Search, Space};
+use crate::fdr::{ActionIndex, Registry, StateId};
+use crate::heuristic::{Heuristic, Reached, Step};
+use crate::poll::Poll;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct NodeId(u32);
+
+#[derive(Debug, Clone, Copy)]
+struct Node {
+    state: StateId,
+    g: u64,
+    /// The predecessor and the action that led here; none for the initial node.
+    came_by: Option<(NodeId, ActionIndex)>,
+    /// A commutative hash of the multiset of actions on the way here.
+    actions: u64,
+    /// Another node took its place.
+    superseded: bool,
+    /// The next node of the same state.
+    next: Option<NodeId>,
+}
+
+/// A* with one heuristic.
+#[derive(Debug)]
+pub(crate) struct AStar {
+    heuristic: Box<dyn Heuristic>,
+    memory_len: usize,
+    /// Whether h is never more than the rest costs.
+    is_admissible: bool,
+    paths: usize,
+    registry: Registry,
+    memories: Vec<u32>,
+    nodes: Vec<Node>,
+    /// The last node of each state.
+    last: Vec<Option<NodeId>>,
+    open: BinaryHeap<Reverse<(u64, u32, NodeId)>>,
+    found: HashSet<u64>,
+    /// The most goal facts seen in an expanded state, and that state.
+    closest: (usize, Option<StateId>),
+    expansions: u64,
+    evaluations: u64,
+    reopened: u64,
+    values: Vec<u32>,
+    after: Vec<u32>,
+}
+
+impl AStar {
+    pub(crate) fn new(space: &Space, heuristic: Box<dyn Heuristic>, is_admissible: bool, paths: usize) -> Self {
+        let variables = space.task.domains.len();
+        Self {
+            memory_len: heuristic.memory_len(),
+            heuristic,
+            is_admissible,
+            paths: paths.max(1),
+            registry: Registry::new(&space.task.domains),
+            memories: Vec::new(),
+            nodes: Vec::new(),
+            last: Vec::new(),
+            open: BinaryHeap::new(),
+            found: HashSet::default(),
+            closest: (0, None),
+            expansions: 0,
+            evaluations: 0,
+            reopened: 0,
+            values: vec![0; variables],
+            after: vec![0; variables],
+        }
+    }
+
+    fn memory(&self, node: NodeId) -> &[u32] {
+        let at = node.0 as usize * self.memory_len;
+        &self.memories[at..at + self.memory_len]
+    }
+
+    fn bytes(&self) -> u64 {
+        // A node with its share of the open list.
+        let node = std::mem::size_of::<Node>() + self.memory_len * 4 + 24;
+        self.registry.len() as u64 * (self.registry.bytes_per_state() + 8) + self.nodes.len() as u64 * node as u64
+    }
+
+    /// Estimates the state in `after`, and adds a node of it unless enough equal ones are known that are at least as good.
+    fn insert(&mut self, space: &Space, g: u64, came_by: Option<(NodeId, ActionIndex)>, actions: u64) {
+        let (state, is_new) = self.registry.insert(&self.after);
+        if is_new {
+            self.last.push(None);
+        }
+        // Without a memory nothing has to be estimated to know that a way is no better.
+        if self.memory_len == 0 && self.rival(state, &[], actions).is_some_and(|(known, _)| g >= known) {
+            return;
+        }
+        let mut memory = vec![0; self.memory_len];
+        let by = came_by.map(|(from, action)| {
+            let at = from.0 as usize * self.memory_len;
+            Step { action, values: &self.values, memory: &self.memories[at..at + self.memory_len] }
+        });
+        self.evaluations += 1;
+        let Some(h) = self.heuristic.estimate(&space.task, Reached { values: &self.after, by }, &mut memory) else {
+            return;
+        };
+        if let Some((known, id)) = self.rival(state, &memory, actions) {
+            if g >= known {
+                return;
+            }
+            self.nodes[id.0 as usize].superseded = true;
+            self.reopened += 1;
+        }
+        let id = NodeId(self.nodes.len() as u32);
+        self.memories.extend_from_slice(&memory);
+        let next = self.last[state.index()].replace(id);
+        self.nodes.push(Node { state, g, came_by, actions, superseded: false, next });
+        self.open.push(Reverse((g + u64::from(h), h, id)));
+    }
+
+    /// The node of a state and memory that another has to be better than, and its g.
+    fn rival(&self, state: StateId, memory: &[u32], actions: u64) -> Option<(u64, NodeId)> {
+        let (mut same_way, mut worst, mut known) = (None, None::<(u64, NodeId)>, 0);
+        let mut next = self.last[state.index()];
+        while let Some(id) = next {
+            let node = &self.nodes[id.0 as usize];
+            next = node.next;
+            if node.superseded || self.memory(id) != memory {
+                continue;
+            }
+            known += 1;
+            if node.actions == actions {
+                same_way = Some((node.g, id));
+            }
+            if worst.is_none_or(|(g, _)| node.g > g) {
+                worst = Some((node.g, id));
+            }
+        }
+        same_way.or(worst.filter(|_| known >= self.paths))
+    }
+
+    fn note_closest(&mut self, space: &Space, state: StateId) {
+        let held = space.task.goal.iter().filter(|goal| goal.holds(&self.values)).count();
+        if self.closest.1.is_none() || held > self.closest.0 {
+            self.closest = (held, Some(state));
+        }
+    }
+
+    fn plan(&self, goal: NodeId) -> Vec<ActionIndex> {
+        let mut actions = Vec::new();
+        let mut current = goal;
+        while let Some((predecessor, action)) = self.nodes[current.0 as usize].came_by {
+            actions.push(action);
+            current = predecessor;
+        }
+        actions.reverse();
+        actions
+    }
+}
+
+impl Search for AStar {
+    fn next(&mut self, space: &Space, cost_bound: Option<u64>, budget: &Budget) -> Found {
+        if self.nodes.is_empty() {
+            self.after.copy_from_slice(&space.task.init);
+            self.insert(space, 0, None, 0);
+        }
+        let cheapest = space.task.actions.costs.iter().copied().min().map_or(0, u64::from);
+        let limit = budget.expansions.map(|allowed| self.expansions + allowed);
+        let mut applicable = Vec::new();
+        let mut poll = Poll::new(budget);
+        while let Some(Reverse((f, _, id))) = self.open.pop() {
+            let node = self.nodes[id.0 as usize];
+            if node.superseded {
+                continue;
+            }
+            self.registry.unpack(node.state, &mut self.values);
+            if space.task.is_goal(&self.values) {
+                if cost_bound.is_none_or(|bound| node.g < bound) && self.found.insert(node.actions) {
+                    return Found::Plan(self.plan(id));
+                }
+                continue;
+            }
+            let at_least = if self.is_admissible { f } else { node.g + cheapest };
+            if cost_bound.is_some_and(|bound| at_least >= bound) {
+                continue;
+            }
+            if limit.is_some_and(|limit| self.expansions >= limit) {
+                self.open.push(Reverse((0, 0, id)));
+                return Found::Cut(Outcome::GaveUp);
+            }
+            self.expansions += 1;
+            self.note_closest(space, node.state);
+            space.successors.applicable(&space.task, &self.values, &mut applicable);
+            for &action in &applicable {
+                // A node that is left half expanded is expanded again: what is known already is not inserted twice.
+                let is_full = budget.bytes.is_some_and(|limit| self.bytes() + space.bytes > limit);
+                let work = 1 + space.task.domains.len() + space.task.axioms.len();
+                let cut = if is_full { Some(Outcome::OutOfMemory) } else { poll.stopped(work).map(Outcome::from) };
+                if let Some(cut) = cut {
+                    self.open.push(Reverse((0, 0, id)));
+                    return Found::Cut(cut);
+                }
+                self.after.copy_from_slice(&self.values);
+                space.task.apply(action, &self.values, &mut self.after);
+                let actions = node.actions.wrapping_add(spread(u64::from(action) + 1));
+                let cost = u64::from(space.task.actions.costs[action as usize]);
+                self.insert(space, node.g + cost, Some((id, action)), actions);
+            }
+        }
+        Found::Nothing
+    }
+
+    fn report(&self) -> Report {
+        Report {
+            expansions: self.expansions,
+            evaluations: self.evaluations,
+            reopened: self.reopened,
+            bytes: self.bytes(),
+            ..Report::default()
+        }
+    }
+
+    fn closest(&self) -> Option<Vec<u32>> {
+        let mut values = vec![0; self.values.len()];
+        self.registry.unpack(self.closest.1?, &mut values);
+        Some(values)
+    }
+}
+
+/// A number with its bits spread (SplitMix64's finalizer), so that sums of different multisets differ.
+fn spread(number: u64) -> u64 {
+    let mut bits = number.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    bits ^ (bits >> 31)
+}

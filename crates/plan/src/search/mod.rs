@@ -1,0 +1,93 @@
+//! Searches. Each can be continued.
+
+mod astar;
+mod lazy;
+mod open_list;
+
+use std::fmt::Debug;
+
+pub(crate) use astar::AStar;
+pub(crate) use lazy::{Lazy, Priority};
+
+use typelift_model::{Budget, Plan, Stop};
+
+use crate::fdr::{ActionIndex, Fdr, SuccessorGenerator};
+use crate::symmetry::Symmetry;
+
+/// How a search ended.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Outcome {
+    /// With a plan.
+    Solved(Plan),
+    /// All that the model allows was searched, and nothing cut off: there is no plan.
+    Unsolvable,
+    /// All that was kept was searched: there is no further plan among it.
+    NoMorePlans,
+    /// The expansions allowed are used up.
+    GaveUp,
+    /// The time allowed is used up.
+    OutOfTime,
+    /// The bytes allowed are used up.
+    OutOfMemory,
+    /// Somebody asked it to stop.
+    Cancelled,
+}
+
+impl From<Stop> for Outcome {
+    fn from(stop: Stop) -> Self {
+        match stop {
+            Stop::Time => Self::OutOfTime,
+            Stop::Cancelled => Self::Cancelled,
+        }
+    }
+}
+
+/// What grounding and search counted.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Report {
+    /// Ground actions.
+    pub ground_actions: u64,
+    /// Facts.
+    pub facts: u64,
+    /// Nodes expanded.
+    pub expansions: u64,
+    /// Nodes evaluated by heuristics.
+    pub evaluations: u64,
+    /// Nodes opened again, having been reached on a smaller g.
+    pub reopened: u64,
+    /// Bytes held by the search's nodes and tables, by its own count.
+    pub bytes: u64,
+}
+
+/// What is searched.
+#[derive(Debug)]
+pub(crate) struct Space {
+    pub(crate) task: Fdr,
+    pub(crate) successors: SuccessorGenerator,
+    pub(crate) symmetry: Symmetry,
+    /// Bytes that the ground task holds.
+    pub(crate) bytes: u64,
+}
+
+/// What a search came to.
+#[derive(Debug)]
+pub(crate) enum Found {
+    /// A plan that was not found before, as the search tells plans apart.
+    Plan(Vec<ActionIndex>),
+    /// Everything that is not too dear was searched.
+    Nothing,
+    /// The budget ended it.
+    Cut(Outcome),
+}
+
+/// A search that can be continued.
+pub(crate) trait Search: Debug + Send {
+    /// Searches on for a plan cheaper than the bound, if there is one; everything dearer is pruned from now on.
+    fn next(&mut self, space: &Space, cost_bound: Option<u64>, budget: &Budget) -> Found;
+
+    /// What was counted.
+    fn report(&self) -> Report;
+
+    /// The state expanded so far in which most goal facts held.
+    fn closest(&self) -> Option<Vec<u32>>;
+}

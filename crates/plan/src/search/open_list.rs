@@ -1,0 +1,69 @@
+//! Open lists that alternate between heuristics (Röger and Helmert, *The more, the merrier*, ICAPS 2010), with lists of
+//! their own for what preferred actions lead to, which are boosted at progress (Richter and Helmert 2009).
+
+use std::collections::{BTreeMap, VecDeque};
+
+/// How many turns lists of preferred entries are given at progress.
+const BOOST: i64 = 1000;
+
+#[derive(Debug)]
+struct List<T> {
+    /// Which key counts here.
+    key: usize,
+    preferred_only: bool,
+    /// How often it had its turn, less the boosts.
+    turns: i64,
+    buckets: BTreeMap<u64, VecDeque<T>>,
+}
+
+/// Entries under several keys each, first in first out among those of equal keys.
+#[derive(Debug)]
+pub(crate) struct Alternation<T> {
+    lists: Vec<List<T>>,
+    len: usize,
+}
+
+impl<T: Copy> Alternation<T> {
+    /// A list for each key, and one for the preferred entries if there are such.
+    pub(crate) fn new(keys: usize, prefers: bool) -> Self {
+        let list = |key, preferred_only| List { key, preferred_only, turns: 0, buckets: BTreeMap::new() };
+        let lists = (0..keys).flat_map(|key| {
+            let preferred = prefers.then(|| list(key, true));
+            [list(key, false)].into_iter().chain(preferred)
+        });
+        Self { lists: lists.collect(), len: 0 }
+    }
+
+    /// Adds an entry under all of its keys.
+    pub(crate) fn push(&mut self, keys: &[u64], preferred: bool, entry: T) {
+        for list in self.lists.iter_mut().filter(|list| preferred || !list.preferred_only) {
+            list.buckets.entry(keys[list.key]).or_default().push_back(entry);
+            self.len += 1;
+        }
+    }
+
+    /// Takes the first entry of the list whose turn it is. Entries of other lists stay, the same ones too.
+    pub(crate) fn pop(&mut self) -> Option<T> {
+        let list = self.lists.iter_mut().filter(|list| !list.buckets.is_empty()).min_by_key(|list| list.turns)?;
+        list.turns += 1;
+        let mut bucket = list.buckets.first_entry()?;
+        let entry = bucket.get_mut().pop_front();
+        if bucket.get().is_empty() {
+            bucket.remove();
+        }
+        self.len -= 1;
+        entry
+    }
+
+    /// Gives preferred entries more turns.
+    pub(crate) fn boost(&mut self) {
+        for list in self.lists.iter_mut().filter(|list| list.preferred_only) {
+            list.turns -= BOOST;
+        }
+    }
+
+    /// How many entries there are, each as often as it is listed.
+    pub(crate) fn len(&self) -> usize {
+        self.len
+    }
+}

@@ -1,0 +1,213 @@
+//! Interchangeable objects: of actions that differ only in which of them they take, one is enough.
+//!
+//! Two objects of one type are interchangeable if the task is the same with each in the other's place: no action or axiom
+//! names them, and initial state, goal and costs say the same of both. In a state, those of which everything still is as
+//! it was initially are interchangeable too, so that an action need be tried only with the first of them, in the order in
+//! which it mentions them. This is the part of symmetry breaking (Pochter, Zohar and Rosenschein 2011; Domshlak, Katz and
+//! Shleyfman 2012) that needs no search for automorphisms; plans are plans of the task as it is, and a cheapest one is kept.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use typelift_model::{ActionModel, HashMap, Symbol, Task, Term, TypeId};
+
+use crate::fact::FactId;
+use crate::fdr::{ActionIndex, Fdr, Values};
+use crate::ground::{GroundTask, Op};
+use crate::lists::Lists;
+
+/// An interchangeable object: they are numbered class by class.
+type Member = u32;
+
+/// The interchangeable objects of a task.
+#[derive(Debug, Default)]
+pub(crate) struct Symmetry {
+    /// The class of each member.
+    class: Vec<u32>,
+    classes: usize,
+    /// The members that each fact mentions, by its dense number.
+    mentioned: Lists<Member>,
+    /// The members that each action depends on, in the order in which it mentions them.
+    used: Lists<Member>,
+    /// For actions that depend on members: the schema, and each object or, less than 0, member.
+    instances: HashMap<ActionIndex, Box<[i64]>>,
+    by_instance: HashMap<Box<[i64]>, ActionIndex>,
+}
+
+/// Which members a state has as they were initially.
+#[derive(Debug, Default)]
+pub(crate) struct Untouched {
+    touched: Vec<bool>,
+    /// The place of each untouched member among those of its class.
+    place: Vec<u32>,
+    /// The untouched members of each class.
+    members: Vec<Vec<Member>>,
+    /// How many of each class are used already.
+    used: Vec<u32>,
+}
+
+impl Symmetry {
+    pub(crate) fn of(model: &ActionModel, task: &Task, ground: &GroundTask, fdr: &Fdr) -> Self {
+        let mut this = Self::default();
+        let mut members: HashMap<Symbol, Member> = HashMap::default();
+        for class in classes(model, task) {
+            for name in class {
+                members.insert(name, this.class.len() as u32);
+                this.class.push(this.classes as u32);
+            }
+            this.classes += 1;
+        }
+        if members.is_empty() {
+            return this;
+        }
+        let mentioned = |fact: FactId| {
+            let args = ground.facts().args(fact).iter();
+            args.filter_map(|&object| members.get(ground.facts().name(object)).copied()).collect::<Vec<_>>()
+        };
+        for number in 0..fdr.fact_count() as u32 {
+            this.mentioned.push(mentioned(fdr.fact(number)));
+        }
+        for (action, &id) in fdr.actions.ids.iter().enumerate() {
+            let op = ground.op(id);
+            let own: Vec<Option<Member>> = op.objects.iter().map(|object| members.get(object).copied()).collect();
+            if own.iter().all(Option::is_none) {
+                this.used.push([]);
+                continue;
+            }
+            let needed: BTreeSet<Member> = facts(op).flat_map(mentioned).collect();
+            let mut used: Vec<Member> = Vec::new();
+            for member in own.iter().flatten().filter(|member| needed.contains(member)) {
+                if !used.contains(member) {
+                    used.push(*member);
+                }
+            }
+            let objects = op.objects.iter().zip(own).map(|(object, member)| {
+                let object = ground.facts().object_id(object).map_or(0, |object| object.index() as i64);
+                member.map_or(object, |member| -1 - i64::from(member))
+            });
+            let instance: Box<[i64]> = std::iter::once(op.schema as i64).chain(objects).collect();
+            this.by_instance.entry(instance.clone()).or_insert(action as u32);
+            this.instances.insert(action as u32, instance);
+            this.used.push(used);
+        }
+        this
+    }
+
+    /// Whether there is nothing to be saved.
+    pub(crate) fn is_trivial(&self) -> bool {
+        self.classes == 0
+    }
+
+    /// Finds what is untouched in a state.
+    pub(crate) fn look_at(&self, fdr: &Fdr, values: &Values, untouched: &mut Untouched) {
+        untouched.touched.clear();
+        untouched.touched.resize(self.class.len(), false);
+        for number in fdr.differing(values, &fdr.init) {
+            for &member in self.mentioned.get(number as usize) {
+                untouched.touched[member as usize] = true;
+            }
+        }
+        untouched.members.resize_with(self.classes, Vec::new);
+        untouched.members.iter_mut().for_each(Vec::clear);
+        untouched.place.clear();
+        for (member, &class) in self.class.iter().enumerate() {
+            let members = &mut untouched.members[class as usize];
+            untouched.place.push(members.len() as u32);
+            if !untouched.touched[member] {
+                members.push(member as u32);
+            }
+        }
+        untouched.used.clear();
+        untouched.used.resize(self.classes, 0);
+    }
+
+    /// The members that an action uses and a state has untouched, each with the one that is to be used in its place.
+    fn exchanged<'a>(&'a self, action: ActionIndex, untouched: &'a mut Untouched) -> Vec<(Member, Member)> {
+        let used = self.used.get(action as usize);
+        let mut exchanged = Vec::new();
+        for &member in used.iter().filter(|&&member| !untouched.touched[member as usize]) {
+            let class = self.class[member as usize] as usize;
+            exchanged.push((member, untouched.members[class][untouched.used[class] as usize]));
+            untouched.used[class] += 1;
+        }
+        for &member in used {
+            untouched.used[self.class[member as usize] as usize] = 0;
+        }
+        exchanged
+    }
+
+    /// Whether an action takes the first untouched objects of each class.
+    pub(crate) fn takes_first(&self, action: ActionIndex, untouched: &mut Untouched) -> bool {
+        match self.used.get(action as usize) {
+            [] => true,
+            [only] => untouched.touched[*only as usize] || untouched.place[*only as usize] == 0,
+            _ => self.exchanged(action, untouched).iter().all(|(member, first)| member == first),
+        }
+    }
+
+    /// The action that is tried in the place of an action that does not take the first.
+    pub(crate) fn first_like(&self, action: ActionIndex, untouched: &mut Untouched) -> Option<ActionIndex> {
+        let exchanged = self.exchanged(action, untouched);
+        let mut instance = self.instances.get(&action)?.clone();
+        for object in &mut instance[1..] {
+            if let Some((_, first)) = exchanged.iter().find(|(member, _)| -1 - i64::from(*member) == *object) {
+                *object = -1 - i64::from(*first);
+            }
+        }
+        self.by_instance.get(&instance).copied()
+    }
+}
+
+/// What an action depends on and changes.
+fn facts(op: &Op) -> impl Iterator<Item = FactId> {
+    let conditional = op.conditional.iter().flat_map(|effect| {
+        effect.positive.iter().chain(&effect.negative).copied().chain([effect.fact])
+    });
+    [&op.preconditions, &op.negative, &op.adds, &op.deletes].into_iter().flatten().copied().chain(conditional)
+}
+
+/// A thing that a task says of an object, which is left out.
+type Said<'a> = (u8, &'a Symbol, Vec<Option<&'a Symbol>>, u32);
+
+/// The classes of two or more interchangeable objects, in the order of names.
+fn classes(model: &ActionModel, task: &Task) -> Vec<Vec<Symbol>> {
+    let mut said: BTreeMap<&Symbol, Vec<Said<'_>>> = BTreeMap::new();
+    let goals = task.goal.iter().map(|atom| (1, atom, 0));
+    let negative = task.negative_goal.iter().map(|atom| (2, atom, 0));
+    let values = task.values.iter().map(|(atom, value)| (3, atom, *value));
+    for (kind, atom, value) in task.init.atoms.iter().map(|atom| (0, atom, 0)).chain(goals).chain(negative).chain(values) {
+        let objects: BTreeSet<&Symbol> = atom.args.iter().collect();
+        for object in objects {
+            let others = atom.args.iter().map(|arg| (arg != object).then_some(arg)).collect();
+            said.entry(object).or_default().push((kind, &atom.predicate, others, value));
+        }
+    }
+    let named = constants(model);
+    let mut classes: BTreeMap<(TypeId, Vec<Said<'_>>), Vec<Symbol>> = BTreeMap::new();
+    for (object, ty) in task.init.objects.iter().filter(|(object, _)| !named.contains(object)) {
+        let mut said = said.remove(object).unwrap_or_default();
+        said.sort_unstable();
+        classes.entry((*ty, said)).or_default().push(object.clone());
+    }
+    let mut classes: Vec<Vec<Symbol>> = classes.into_values().filter(|class| class.len() > 1).collect();
+    classes.sort_unstable();
+    classes
+}
+
+/// The objects that actions and axioms name.
+fn constants(model: &ActionModel) -> BTreeSet<&Symbol> {
+    let of_actions = model.actions.iter().flat_map(|action| {
+        let conditions = action.effects.iter().flat_map(|effect| effect.condition.iter().chain([&effect.literal]));
+        let atoms = action.preconditions.iter().chain(conditions).map(|literal| &literal.atom);
+        atoms.chain(&action.cost.functions).flat_map(|atom| &atom.args).chain(&action.call.args)
+    });
+    let of_axioms = model.axioms.iter().flat_map(|axiom| {
+        axiom.body.iter().map(|literal| &literal.atom).chain([&axiom.head]).flat_map(|atom| &atom.args)
+    });
+    let mut named = BTreeSet::new();
+    for term in of_actions.chain(of_axioms) {
+        if let Term::Const(name) = term {
+            named.insert(name);
+        }
+    }
+    named
+}
