@@ -31,6 +31,7 @@ mod relaxation;
 mod restrict;
 mod restricted;
 mod search;
+mod shuffle;
 mod strategy;
 mod symmetry;
 

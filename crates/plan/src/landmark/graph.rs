@@ -59,12 +59,6 @@ impl LandmarkGraph {
         builder.collect(poll)?;
         builder.natural(poll)?;
         builder.reasonable(poll)?;
-        if std::env::var("LMDUMP").is_ok() {
-            for (i, l) in builder.landmarks.iter().enumerate() {
-                let name = |p: &Prop| if relaxation.is_fact(*p) { task.atom(fdr.fact(*p)).to_string() } else { format!("not? {p}") };
-                eprintln!("{i} {:?} goal={} pred={:?} gn-for={:?} after={:?}", l.props.iter().map(name).collect::<Vec<_>>(), l.is_goal, l.predecessors, l.needed_for, l.better_after);
-            }
-        }
         Ok(Self { landmarks: builder.landmarks })
     }
 }

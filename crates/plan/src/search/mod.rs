@@ -1,13 +1,15 @@
 //! Searches. Each can be continued.
 
 mod astar;
+mod interleaved;
 mod lazy;
 mod open_list;
 
 use std::fmt::Debug;
 
 pub(crate) use astar::AStar;
-pub(crate) use lazy::{Lazy, Priority};
+pub(crate) use interleaved::{Attempts, Interleaved};
+pub(crate) use lazy::{Lazy, Preference, Priority};
 
 use typelift_model::{Budget, Plan, Stop};
 
