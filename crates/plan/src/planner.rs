@@ -101,8 +101,7 @@ impl Planner {
         } else {
             Symmetry::default()
         };
-        let space =
-            Space { successors: SuccessorGenerator::new(&task), symmetry, task, bytes: this.ground.bytes() };
+        let space = Space { successors: SuccessorGenerator::new(&task), symmetry, task, bytes: this.ground.bytes() };
         let (strategy, stage) = (options.strategy, Stage::First);
         let search = strategy.search(stage, &this.ground, &space, options.plans, budget)?;
         let past = Report::default();
@@ -115,7 +114,8 @@ impl Planner {
         let Some(running) = &mut self.running else { return Outcome::Unsolvable };
         if !running.strategy.has_one_search() && !running.found.is_empty() {
             // A greedy search closes each state after its first way there; others are found by another search.
-            let turned = running.turn_to(Strategy::OrderedLandmarks, Stage::First, &self.ground, self.options.plans, budget);
+            let turned =
+                running.turn_to(Strategy::OrderedLandmarks, Stage::First, &self.ground, self.options.plans, budget);
             if let Err(cut) = turned {
                 return cut.into();
             }
@@ -144,11 +144,7 @@ impl Planner {
     /// What was counted so far.
     pub fn report(&self) -> Report {
         let counted = self.running.as_ref().map(Running::report).unwrap_or_default();
-        Report {
-            ground_actions: self.ground.op_count() as u64,
-            facts: self.ground.fact_count() as u64,
-            ..counted
-        }
+        Report { ground_actions: self.ground.op_count() as u64, facts: self.ground.fact_count() as u64, ..counted }
     }
 
     /// The grounded task.

@@ -49,23 +49,15 @@ impl Stage {
     pub(crate) fn next(self) -> Self {
         match self {
             Self::First => Self::Weighted(WEIGHTS[0]),
-            Self::Weighted(weight) => {
-                Self::Weighted(WEIGHTS.into_iter().find(|&next| next < weight).unwrap_or(weight))
-            }
+            Self::Weighted(weight) => Self::Weighted(WEIGHTS.into_iter().find(|&next| next < weight).unwrap_or(weight)),
         }
     }
 }
 
 impl Strategy {
     /// Every strategy.
-    pub const ALL: [Self; 6] = [
-        Self::OrderedLandmarks,
-        Self::Lama,
-        Self::LazyFf,
-        Self::LazyLandmarks,
-        Self::AStarLmCut,
-        Self::AStarBlind,
-    ];
+    pub const ALL: [Self; 6] =
+        [Self::OrderedLandmarks, Self::Lama, Self::LazyFf, Self::LazyLandmarks, Self::AStarLmCut, Self::AStarBlind];
 
     /// Its name on a command line.
     pub fn name(self) -> &'static str {

@@ -25,9 +25,10 @@ pub(crate) struct LandmarkCount {
 
 impl LandmarkCount {
     pub(crate) fn new(graph: Arc<LandmarkGraph>, task: &Fdr, relaxation: &Relaxation) -> Self {
-        let literals = graph.landmarks.iter().map(|landmark| {
-            landmark.props.iter().filter_map(|&prop| relaxation.literal(task, prop)).collect()
-        });
+        let literals = graph
+            .landmarks
+            .iter()
+            .map(|landmark| landmark.props.iter().filter_map(|&prop| relaxation.literal(task, prop)).collect());
         Self { literals: literals.collect(), graph }
     }
 
@@ -64,8 +65,8 @@ impl Heuristic for LandmarkCount {
                 None => !self.holds(values, index),
                 Some(by) => {
                     let (was_past, was_future) = by.memory.split_at(self.words());
-                    let in_future = is_set(was_future, index)
-                        && !(self.holds(values, index) && !self.holds(by.values, index));
+                    let in_future =
+                        is_set(was_future, index) && !(self.holds(values, index) && !self.holds(by.values, index));
                     if is_set(was_past, index) {
                         set(past, index);
                     }

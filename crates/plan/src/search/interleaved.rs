@@ -2,7 +2,8 @@
 //!
 //! Greedy searches have heavy tails: the same search with ties broken otherwise may take a hundredth or a hundred times
 //! the expansions. So the lasting searches take turns with one that begins anew again and again, each time with ties broken
-//! in another way, and each time for longer. Turns grow with what was done so far, so that few of them are enough.
+//! in another way, and each time for longer. A turn goes on while it brings progress, and turns grow with what was done so
+//! far, so that few of them are enough.
 
 use typelift_model::Budget;
 
@@ -40,20 +41,26 @@ pub(crate) struct Interleaved {
     turn: usize,
     left: u64,
     length: u64,
+    /// The improvements of the search whose turn it is when the turn began.
+    improvements: u64,
 }
 
 impl Interleaved {
     pub(crate) fn new(lasting: Vec<Box<dyn Search>>, attempts: Box<dyn Attempts>) -> Self {
         let restarting = Restarting { attempts, number: 0, current: None, left: 0, past: Report::default() };
-        Self { lasting, restarting, turn: 0, left: 2 * FIRST_TURN, length: FIRST_TURN }
+        Self { lasting, restarting, turn: 0, left: 2 * FIRST_TURN, length: FIRST_TURN, improvements: 0 }
     }
 
     fn end_turn(&mut self) {
-        self.turn += 1;
-        if self.turn > self.lasting.len() {
-            self.turn = 0;
-            self.length += self.length / 4;
+        let improvements = |turn: usize| self.lasting.get(turn).map_or(0, |search| search.improvements());
+        if improvements(self.turn) == self.improvements {
+            self.turn += 1;
+            if self.turn > self.lasting.len() {
+                self.turn = 0;
+                self.length += self.length / 4;
+            }
         }
+        self.improvements = improvements(self.turn);
         // The first is what is trusted most.
         self.left = if self.turn == 0 { 2 * self.length } else { self.length };
     }

@@ -69,6 +69,7 @@ pub(crate) struct Lazy {
     expansions: u64,
     evaluations: u64,
     reopened: u64,
+    improvements: u64,
     values: Vec<u32>,
     before: Vec<u32>,
     memory: Vec<u32>,
@@ -110,6 +111,7 @@ impl Lazy {
             expansions: 0,
             evaluations: 0,
             reopened: 0,
+            improvements: 0,
             values: vec![0; variables],
             before: vec![0; variables],
             memory: vec![0; memory_len],
@@ -175,6 +177,7 @@ impl Lazy {
             keys.push(h);
         }
         if progress {
+            self.improvements += 1;
             self.open.boost();
         }
         true
@@ -201,7 +204,8 @@ impl Lazy {
         }
         let mut priorities = [0_u64; 4];
         for &action in &self.applicable {
-            if cost_bound.is_some_and(|bound| node.cost + u64::from(space.task.actions.costs[action as usize]) >= bound) {
+            if cost_bound.is_some_and(|bound| node.cost + u64::from(space.task.actions.costs[action as usize]) >= bound)
+            {
                 continue;
             }
             let g = node.g + u64::from(self.costs[action as usize]);
@@ -314,6 +318,10 @@ impl Search for Lazy {
             bytes: self.bytes(),
             ..Report::default()
         }
+    }
+
+    fn improvements(&self) -> u64 {
+        self.improvements
     }
 
     fn closest(&self) -> Option<Vec<u32>> {

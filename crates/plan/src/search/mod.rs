@@ -90,6 +90,11 @@ pub(crate) trait Search: Debug + Send {
     /// What was counted.
     fn report(&self) -> Report;
 
+    /// How often it came nearer to the goal than ever before, by an estimate.
+    fn improvements(&self) -> u64 {
+        0
+    }
+
     /// The state expanded so far in which most goal facts held.
     fn closest(&self) -> Option<Vec<u32>>;
 }
