@@ -167,10 +167,10 @@ impl Attempts for Parts {
     fn begin(&self, space: &Space, number: u64) -> Box<dyn Search> {
         let mut shuffler = Shuffler::new(number);
         let ff = Box::new(self.ff().shuffled(&mut shuffler));
-        let preference = if number % 2 == 0 { Preference::Helpful } else { Preference::Preferred };
+        let preference = if number.is_multiple_of(2) { Preference::Helpful } else { Preference::Preferred };
         // Every third without landmarks.
         let heuristics: Vec<Box<dyn Heuristic>> =
-            if number % 3 == 0 { vec![ff] } else { vec![ff, Box::new(self.landmark_count(space))] };
+            if number.is_multiple_of(3) { vec![ff] } else { vec![ff, Box::new(self.landmark_count(space))] };
         Box::new(self.lazy(space, heuristics, preference).shuffled(shuffler))
     }
 }

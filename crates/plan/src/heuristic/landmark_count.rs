@@ -66,7 +66,7 @@ impl Heuristic for LandmarkCount {
                 Some(by) => {
                     let (was_past, was_future) = by.memory.split_at(self.words());
                     let in_future =
-                        is_set(was_future, index) && !(self.holds(values, index) && !self.holds(by.values, index));
+                        is_set(was_future, index) && (!self.holds(values, index) || self.holds(by.values, index));
                     if is_set(was_past, index) {
                         set(past, index);
                     }

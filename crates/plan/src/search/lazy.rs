@@ -230,10 +230,11 @@ impl Lazy {
         let (preferred, now) = (&mut self.preferred, self.evaluations);
         self.applicable.retain(|&action| {
             let keep = space.symmetry.takes_first(action, &mut self.untouched);
-            if !keep && preferred[action as usize] == now {
-                if let Some(first) = space.symmetry.first_like(action, &mut self.untouched) {
-                    preferred[first as usize] = now;
-                }
+            if !keep
+                && preferred[action as usize] == now
+                && let Some(first) = space.symmetry.first_like(action, &mut self.untouched)
+            {
+                preferred[first as usize] = now;
             }
             keep
         });
