@@ -7,7 +7,7 @@ The kitchen's demonstrations and tasks are written to FOLDER, a model is learned
 levels; tasks that need imagination are exported with it. Each planner that is installed solves each. Whatever level a
 plan was found at, it counts if it is one in the problem as level adl states it, by unified-planning, and in the model
 that was exported, by `typelift validate`. Then it is carried out in the kitchen, by `typelift run`; where the kitchen
-refuses a step, the same planner is asked for another plan.
+refuses a step, it is set back, and the same planner is asked for another plan without what failed.
 
 The planners are looked for in the Python that runs this:
 
@@ -211,7 +211,7 @@ def carried_out(arguments, model, task, plan, planner, level, imagine):
     """What `typelift run` says of a plan in the kitchen."""
     words = [sys.executable, Path(__file__).resolve(), AGAIN, plan.parent.resolve(), planner, arguments.seconds]
     command = f"{shlex.join(map(str, words))} {{domain}} {{problem}} {{plan}}"
-    options = ["--kitchen", "--json", "--planner", command, "--planner-level", level, *imagine]
+    options = ["--kitchen", "--restart", "--json", "--planner", command, "--planner-level", level, *imagine]
     ended = subprocess.run([arguments.typelift, "run", model, task, *options], capture_output=True, text=True)
     plan.with_suffix(".run").write_text(ended.stdout + ended.stderr)
     report = json.loads(ended.stdout) if ended.stdout else {"solved": False}
