@@ -7,7 +7,8 @@ The kitchen's demonstrations and tasks are written to FOLDER, a model is learned
 levels; tasks that need imagination are exported with it. Each planner that is installed solves each. Whatever level a
 plan was found at, it counts if it is one in the problem as level adl states it, by unified-planning, and in the model
 that was exported, by `typelift validate`. Then it is carried out in the kitchen, by `typelift run`; where the kitchen
-refuses a step, it is set back, and the same planner is asked for another plan without what failed.
+refuses a step, the same planner is asked for another plan without what failed: with --restart, from the beginning; if
+that leads nowhere, since objects are then excluded from everything, again from where the kitchen stands.
 
 The planners are looked for in the Python that runs this:
 
@@ -36,6 +37,9 @@ LEVELS = ["strips", "adl"]
 # The first argument of this script where `typelift run` calls it as a planner.
 AGAIN = "--again"
 
+# An exit code of Fast Downward.
+OUT_OF_TIME = 23
+
 MIMIR = """
 import sys, pymimir
 domain, problem, plan, seconds = sys.argv[1:]
@@ -43,7 +47,8 @@ domain = pymimir.Domain(domain)
 problem = pymimir.Problem(domain, problem)
 found = pymimir.gbfs_lazy(problem, problem.get_initial_state(), pymimir.FFHeuristic(problem), float(seconds))
 if found.solution is None:
-    sys.exit(f"mimir: {found.status}")
+    print(f"mimir: {found.status}")
+    sys.exit(11 if "UNSOLVABLE" in str(found.status).upper() or "EXHAUSTED" in str(found.status).upper() else 12)
 with open(plan, "w") as out:
     for action in found.solution:
         names = [action.get_action().get_name()] + [thing.get_name() for thing in action.get_objects()]
@@ -66,13 +71,13 @@ for plan in plans:
 
 
 def run(command, seconds, log, **variables):
-    """Whether a command ends well and in time; what it says goes to a file."""
+    """The code with which a command ends, Fast Downward's if it takes too long; what it says goes to a file."""
     try:
         with open(log, "w") as out:
             ended = subprocess.run(command, stdout=out, stderr=out, timeout=seconds, env=os.environ | variables)
-            return ended.returncode == 0
+            return ended.returncode
     except subprocess.TimeoutExpired:
-        return False
+        return OUT_OF_TIME
 
 
 def output(command):
@@ -110,11 +115,12 @@ def pyperplan(seconds):
             for heuristic, search in PYPERPLAN:
                 left = until - time.monotonic()
                 if left <= 0:
-                    return False
+                    return OUT_OF_TIME
                 command = [sys.executable, "-m", "pyperplan", "-H", heuristic, "-s", search, domain, problem]
-                if run(command, min(left, PYPERPLAN_SECONDS), log, PYTHONHASHSEED=str(seed)) and written.exists():
+                ended = run(command, min(left, PYPERPLAN_SECONDS), log, PYTHONHASHSEED=str(seed))
+                if ended == 0 and written.exists():
                     written.rename(plan)
-                    return True
+                    return 0
 
     return Planner("pyperplan", ["strips"], solve)
 
@@ -203,21 +209,24 @@ def again(arguments):
         shutil.copy(folder / plan_name(name), plan)
         return 0
     planner = next(planner for planner in planners(float(seconds), None) if planner.name == name)
-    # 12, as Fast Downward ends when it found nothing and does not know that there is nothing.
-    return 0 if planner.solve(domain, problem, plan, plan.with_suffix(".log")) else 12
+    # As it ended: where there is no plan, typelift lifts what it had excluded.
+    return planner.solve(domain, problem, plan, plan.with_suffix(".log"))
 
 
 def carried_out(arguments, model, task, plan, planner, level, imagine):
     """What `typelift run` says of a plan in the kitchen."""
     words = [sys.executable, Path(__file__).resolve(), AGAIN, plan.parent.resolve(), planner, arguments.seconds]
     command = f"{shlex.join(map(str, words))} {{domain}} {{problem}} {{plan}}"
-    options = ["--kitchen", "--restart", "--json", "--planner", command, "--planner-level", level, *imagine]
-    ended = subprocess.run([arguments.typelift, "run", model, task, *options], capture_output=True, text=True)
-    plan.with_suffix(".run").write_text(ended.stdout + ended.stderr)
-    report = json.loads(ended.stdout) if ended.stdout else {"solved": False}
-    if not report["solved"]:
-        return " (not achieved)"
-    return "" if report["proposals"] == 1 else f" ({report['proposals']} proposals)"
+    options = ["--kitchen", "--json", "--planner", command, "--planner-level", level, *imagine]
+    for restart in [["--restart"], []]:
+        run_it = [arguments.typelift, "run", model, task, *options, *restart]
+        ended = subprocess.run(run_it, capture_output=True, text=True)
+        plan.with_suffix(".run").write_text(ended.stdout + ended.stderr)
+        report = json.loads(ended.stdout) if ended.stdout else {"solved": False}
+        if report["solved"]:
+            how = "" if restart else " without restart"
+            return "" if report["proposals"] == 1 else f" ({report['proposals']} proposals{how})"
+    return " (not achieved)"
 
 
 def solve_task(arguments, found, model, task):
@@ -234,7 +243,7 @@ def solve_task(arguments, found, model, task):
             plan.unlink(missing_ok=True)
             solved = planner.solve(folder / "domain.pddl", folder / "problem.pddl", plan, plan.with_suffix(".log"))
             cells[planner.name, level] = None
-            if solved and plan.exists():
+            if solved == 0 and plan.exists():
                 plans[planner.name, level] = plan
     stated = arguments.folder / "exported" / f"{task.stem}-adl"
     judged = are_valid(stated / "domain.pddl", stated / "problem.pddl", list(plans.values()))
