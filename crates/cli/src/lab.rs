@@ -16,7 +16,7 @@ use crate::lab_progress::Bar;
 use crate::lab_report::LabReport;
 use crate::lab_table::LabTable;
 use crate::limits::{Clock, Interrupt, parse_duration, parse_whole};
-use crate::style::{WARNING, count};
+use crate::style::WARNING;
 
 /// Run the paper's experiments again, and set ours beside the published numbers
 #[derive(Debug, clap::Args)]
