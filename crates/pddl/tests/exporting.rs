@@ -426,7 +426,7 @@ fn what_must_hold_may_say_what_may_not() {
     // An empty hand still holds nothing; of what is in two places, one is left when it is taken.
     assert_eq!(complements(Some(&task), &model), ["at"]);
     // An action that breaks it.
-    let mut grown = model.clone();
+    let mut grown = model;
     grown.actions[1].effects.retain(|effect| effect.literal.atom.predicate.as_str() != "holds");
     task.init.atoms.remove(&ground("at(saw_2,shelf_1)"));
     assert_eq!(complements(Some(&task), &grown), ["at", "empty", "holds"]);
