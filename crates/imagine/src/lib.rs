@@ -24,7 +24,7 @@ mod substitute;
 use std::collections::{BTreeSet, VecDeque};
 
 use typelift_model::{ActionModel, ActionSchema, Budget, GroundAtom, HashMap, Symbol, Task, TypeId, UniqueNames};
-use typelift_plan::{Cut, Restrictions, TieOrder, ground};
+use typelift_plan::{Cut, Restrictions, TieOrder, ground, reaches_goals_with_fewer_objects};
 
 pub use guard::Guard;
 
@@ -89,6 +89,9 @@ pub fn imagine(
     options: &Options,
     budget: &Budget,
 ) -> Result<Imagination, Cut> {
+    if reaches_goals_with_fewer_objects(model, task, restrictions, budget)? {
+        return Ok(Imagination::default());
+    }
     let ground = ground(model, task, restrictions, TieOrder::default(), budget)?;
     let context = Context { model, task, restrictions, reached: ground.reached_by_predicate() };
     let mut queue: VecDeque<GroundAtom> = ground.unreachable_goals().iter().cloned().collect();

@@ -4,7 +4,7 @@
 //! The data flows through the files in this order:
 //!
 //! ```text
-//! ActionModel, Task, Restrictions ─▶ [reach] ─▶ [ground] GroundTask ─▶ [fdr] variables ─┬▶ [relaxation] ─▶ [landmark]
+//! ActionModel, Task, Restrictions ─▶ [scope] ─▶ [reach] ─▶ [ground] GroundTask ─▶ [fdr] variables ─┬▶ [relaxation] ─▶ [landmark]
 //!                                                                                       ▼        └─▶ [heuristic] ◀┘
 //!                                                         Plan ◀─ [strategy] ◀─ [search] ◀───────────────┘
 //! ```
@@ -21,6 +21,7 @@ mod fdr;
 mod ground;
 mod heuristic;
 mod landmark;
+mod level;
 mod lists;
 mod memory;
 mod pattern;
@@ -30,6 +31,7 @@ mod reach;
 mod relaxation;
 mod restrict;
 mod restricted;
+mod scope;
 mod search;
 mod shuffle;
 mod strategy;
@@ -43,5 +45,6 @@ pub use landmark::{LandmarkSequence, landmark_sequences};
 pub use planner::{Options, Planner};
 pub use reach::Cut;
 pub use restrict::{Ban, Exclusion, Restrictions};
+pub use scope::reaches_goals_with_fewer_objects;
 pub use search::{Outcome, Report};
 pub use strategy::Strategy;

@@ -1,18 +1,15 @@
 //! From a model and a task to plans.
 
-use typelift_model::{ActionModel, Budget, GroundAtom, HashSet, Plan, Task};
+use typelift_model::{ActionModel, Budget, HashSet, Plan, Symbol, Task};
 
 use crate::Restrictions;
 use crate::explain::{Explanation, unreachable};
-use crate::fact::FactId;
-use crate::fdr::{ActionIndex, Fdr, SuccessorGenerator};
-use crate::ground::{GroundTask, TieOrder, ground};
-use crate::landmark::exclusive_goals;
-use crate::poll::Poll;
+use crate::ground::{GroundTask, TieOrder};
+use crate::level::Level;
 use crate::reach::Cut;
-use crate::search::{Found, Outcome, Report, Search, Space};
-use crate::strategy::{Stage, Strategy};
-use crate::symmetry::Symmetry;
+use crate::scope::Scopes;
+use crate::search::{Outcome, Report};
+use crate::strategy::Strategy;
 
 /// How plans are looked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,32 +29,28 @@ impl Default for Options {
 }
 
 /// A task being planned: grounded once, searched on demand.
+///
+/// A task with very many objects is planned with those that can matter first, and with more and more of them while no plan
+/// is found; a plan with fewer objects is a plan of the task. So it is with further plans and better ones: with all
+/// objects they are looked for when with fewer there are no more, or none is found for long. That there is none, no other,
+/// or no better one is only ever said of all objects. A strategy whose first plan is a cheapest one takes all at once.
 #[derive(Debug)]
 pub struct Planner {
     model: ActionModel,
     task: Task,
     restrictions: Restrictions,
     options: Options,
-    ground: GroundTask,
-    /// Two goals that cannot hold together.
-    exclusive: Option<(GroundAtom, GroundAtom)>,
-    /// What must not hold in the end, but does for ever.
-    lasting: Vec<GroundAtom>,
-    /// `None` if a goal is unreachable, two exclude each other, or something lasts: there is nothing to search.
-    running: Option<Running>,
-}
-
-/// A search, and what came before it.
-#[derive(Debug)]
-struct Running {
-    space: Space,
-    strategy: Strategy,
-    stage: Stage,
-    search: Box<dyn Search>,
-    /// The plans found, as multisets of actions, sorted.
-    found: HashSet<Vec<ActionIndex>>,
-    /// What searches that are over have counted.
+    /// The objects planned with.
+    scopes: Scopes,
+    level: Level,
+    /// The level is over, and the next not grounded yet.
+    over: bool,
+    /// The expansions of this level when it had found its last plan.
+    expansions_before: u64,
+    /// What levels that are over have counted.
     past: Report,
+    /// The plans of levels with fewer objects, as multisets of actions, sorted.
+    found: HashSet<Vec<(Symbol, Vec<Symbol>)>>,
 }
 
 impl Planner {
@@ -74,82 +67,112 @@ impl Planner {
         options: &Options,
         budget: &Budget,
     ) -> Result<Self, Cut> {
-        let ground = ground(model, task, restrictions, options.tie_order, budget)?;
-        let exclusive = exclusive_goals(&ground, budget)?;
-        let lasting = lasting(&ground, budget)?;
-        let mut this = Self {
+        let mut scopes =
+            if options.strategy.is_optimal() { Scopes::whole() } else { Scopes::of(model, task, restrictions) };
+        let mut past = Report::default();
+        let level = loop {
+            let level = Level::new(model, &scopes.restrict(task), restrictions, options, budget)?;
+            if scopes.is_whole() || level.is_open() {
+                break level;
+            }
+            past = past.and(level.report());
+            scopes.advance();
+        };
+        Ok(Self {
             model: model.clone(),
             task: task.clone(),
             restrictions: restrictions.clone(),
             options: *options,
-            exclusive: exclusive.map(|(a, b)| (ground.atom(a), ground.atom(b))),
-            lasting,
-            ground,
-            running: None,
-        };
-        if !this.ground.unreachable_goals().is_empty() || this.exclusive.is_some() || !this.lasting.is_empty() {
-            return Ok(this);
-        }
-        let task = Fdr::new(&this.ground, budget)?;
-        if let Some((a, b)) = task.mutexes.excluded_pair(this.ground.goal()) {
-            this.exclusive = Some((this.ground.atom(a), this.ground.atom(b)));
-            return Ok(this);
-        }
-        // What may not be used tells objects apart.
-        let symmetry = if *restrictions == Restrictions::default() {
-            Symmetry::of(model, &this.task, &this.ground, &task)
-        } else {
-            Symmetry::default()
-        };
-        let space = Space { successors: SuccessorGenerator::new(&task), symmetry, task, bytes: this.ground.bytes() };
-        let (strategy, stage) = (options.strategy, Stage::First);
-        let search = strategy.search(stage, &this.ground, &space, options.plans, budget)?;
-        let past = Report::default();
-        this.running = Some(Running { space, strategy, stage, search, found: HashSet::default(), past });
-        Ok(this)
+            scopes,
+            level,
+            over: false,
+            expansions_before: 0,
+            past,
+            found: HashSet::default(),
+        })
     }
 
     /// The next plan: one whose multiset of actions was not found before. The budget's expansions are for this call.
     pub fn next_plan(&mut self, budget: &Budget) -> Outcome {
-        let Some(running) = &mut self.running else { return Outcome::Unsolvable };
-        if !running.strategy.has_one_search() && !running.found.is_empty() {
-            // A greedy search closes each state after its first way there; others are found by another search.
-            let turned =
-                running.turn_to(Strategy::OrderedLandmarks, Stage::First, &self.ground, self.options.plans, budget);
-            if let Err(cut) = turned {
-                return cut.into();
-            }
-        }
-        running.next(&self.ground, None, budget)
+        self.next(None, budget)
     }
 
     /// A plan cheaper than `cost`, from where the search stands; everything dearer is pruned from now on.
     pub fn better_plan(&mut self, cost: u64, budget: &Budget) -> Outcome {
-        let Some(running) = &mut self.running else { return Outcome::Unsolvable };
-        if !running.strategy.has_one_search() && !running.found.is_empty() && running.stage == Stage::First {
-            let (strategy, stage) = (running.strategy, running.stage.next());
-            if let Err(cut) = running.turn_to(strategy, stage, &self.ground, self.options.plans, budget) {
+        self.next(Some(cost), budget)
+    }
+
+    fn next(&mut self, cost_bound: Option<u64>, budget: &Budget) -> Outcome {
+        let mut budget = budget.clone();
+        loop {
+            if self.over
+                && let Err(cut) = self.grow(&budget)
+            {
                 return cut.into();
             }
+            let before = self.level.report().expansions;
+            // With fewer objects not everything is searched, however long it takes.
+            let allowed = self.scopes.expansions().map(|all| (all + self.expansions_before).saturating_sub(before));
+            let expansions = budget.expansions.into_iter().chain(allowed).min();
+            let outcome = self.level.next(cost_bound, &Budget { expansions, ..budget.clone() });
+            let spent = self.level.report().expansions - before;
+            budget.expansions = budget.expansions.map(|left| left.saturating_sub(spent));
+            match outcome {
+                Outcome::Solved(plan) => {
+                    self.expansions_before = before + spent;
+                    if self.is_new(&plan) {
+                        return Outcome::Solved(plan);
+                    }
+                }
+                Outcome::Unsolvable if self.scopes.is_whole() && !self.found.is_empty() => return Outcome::NoMorePlans,
+                outcome if self.scopes.is_whole() => return outcome,
+                Outcome::Unsolvable | Outcome::NoMorePlans => self.over = true,
+                Outcome::GaveUp if budget.expansions != Some(0) => self.over = true,
+                outcome => return outcome,
+            }
         }
-        let outcome = running.next(&self.ground, Some(cost), budget);
-        if matches!(outcome, Outcome::Solved(_)) && !running.strategy.has_one_search() {
-            let (strategy, stage) = (running.strategy, running.stage.next());
-            // Without the time for the next stage this one goes on.
-            let _ = running.turn_to(strategy, stage, &self.ground, self.options.plans, budget);
-        }
-        outcome
     }
 
-    /// What was counted so far.
+    /// Grounds the task with more objects, until no goal is out of reach. If that is cut, it is done the next time.
+    fn grow(&mut self, budget: &Budget) -> Result<(), Cut> {
+        if self.level.is_open() {
+            self.past = self.past.and(self.level.report());
+            self.level.close();
+            self.scopes.advance();
+        }
+        // The ground actions of the last level are held until there are others.
+        let held = self.level.ground().bytes();
+        let budget = Budget { bytes: budget.bytes.map(|bytes| bytes.saturating_sub(held)), ..budget.clone() };
+        loop {
+            let task = self.scopes.restrict(&self.task);
+            let level = Level::new(&self.model, &task, &self.restrictions, &self.options, &budget)?;
+            if self.scopes.is_whole() || level.is_open() {
+                (self.level, self.over, self.expansions_before) = (level, false, 0);
+                return Ok(());
+            }
+            self.past = self.past.and(level.report());
+            self.scopes.advance();
+        }
+    }
+
+    /// Whether no level with fewer objects has found a plan; at such a level it has now.
+    fn is_new(&mut self, plan: &Plan) -> bool {
+        if self.scopes.is_whole() && self.found.is_empty() {
+            return true;
+        }
+        let mut actions: Vec<_> = plan.steps.iter().map(|step| (step.action.clone(), step.objects.clone())).collect();
+        actions.sort_unstable();
+        if self.scopes.is_whole() { !self.found.contains(&actions) } else { self.found.insert(actions) }
+    }
+
+    /// What was counted so far, with fewer objects and with more.
     pub fn report(&self) -> Report {
-        let counted = self.running.as_ref().map(Running::report).unwrap_or_default();
-        Report { ground_actions: self.ground.op_count() as u64, facts: self.ground.fact_count() as u64, ..counted }
+        if self.over && !self.level.is_open() { self.past } else { self.past.and(self.level.report()) }
     }
 
-    /// The grounded task.
+    /// The grounded task: with as many objects as are planned with now.
     pub fn ground_task(&self) -> &GroundTask {
-        &self.ground
+        self.level.ground()
     }
 
     /// The task as it was asked.
@@ -159,69 +182,30 @@ impl Planner {
 
     /// Why no plan was found.
     pub fn explain(&self) -> Explanation {
-        let Some(running) = &self.running else {
-            if self.ground.unreachable_goals().is_empty() {
-                if let Some((one, other)) = &self.exclusive {
-                    return Explanation::Exclusive { one: one.clone(), other: other.clone() };
-                }
-                return Explanation::Lasting(self.lasting.clone());
-            }
-            return Explanation::Unreachable(unreachable(&self.model, &self.task, &self.restrictions, &self.ground));
-        };
-        let missing = |values: Vec<u32>| {
-            let wanted = self.ground.goal().iter().map(|&fact| (fact, true));
-            let unwanted = self.ground.negative_goal().iter().map(|&fact| (fact, false));
-            let open = wanted.chain(unwanted).filter(|&(f, positive)| running.space.task.holds(&values, f) != positive);
-            open.map(|(fact, positive)| (self.ground.atom(fact), positive)).collect()
-        };
-        Explanation::NotTogether { missing: running.search.closest().map(missing).unwrap_or_default() }
+        let ground = self.level.ground();
+        if self.over || self.level.is_open() {
+            return Explanation::NotTogether { missing: self.level.missing() };
+        }
+        if !ground.unreachable_goals().is_empty() {
+            return Explanation::Unreachable(unreachable(&self.model, &self.task, &self.restrictions, ground));
+        }
+        match self.level.exclusive() {
+            Some((one, other)) => Explanation::Exclusive { one: one.clone(), other: other.clone() },
+            None => Explanation::Lasting(self.level.lasting().to_vec()),
+        }
     }
 }
 
-impl Running {
-    fn turn_to(
-        &mut self,
-        strategy: Strategy,
-        stage: Stage,
-        ground: &GroundTask,
-        plans: usize,
-        budget: &Budget,
-    ) -> Result<(), Cut> {
-        if (strategy, stage) == (self.strategy, self.stage) {
-            return Ok(());
-        }
-        let search = strategy.search(stage, ground, &self.space, plans, budget)?;
-        self.past = self.report();
-        (self.strategy, self.stage, self.search) = (strategy, stage, search);
-        Ok(())
-    }
-
-    fn next(&mut self, ground: &GroundTask, cost_bound: Option<u64>, budget: &Budget) -> Outcome {
-        loop {
-            match self.search.next(&self.space, cost_bound, budget) {
-                Found::Plan(actions) => {
-                    let mut multiset = actions.clone();
-                    multiset.sort_unstable();
-                    if self.found.insert(multiset) {
-                        let ids = &self.space.task.actions.ids;
-                        let steps = actions.iter().map(|&action| ground.step(ids[action as usize])).collect();
-                        return Outcome::Solved(Plan { steps });
-                    }
-                }
-                Found::Nothing if self.found.is_empty() && cost_bound.is_none() => return Outcome::Unsolvable,
-                Found::Nothing => return Outcome::NoMorePlans,
-                Found::Cut(outcome) => return outcome,
-            }
-        }
-    }
-
-    fn report(&self) -> Report {
-        let now = self.search.report();
-        Report {
-            expansions: self.past.expansions + now.expansions,
-            evaluations: self.past.evaluations + now.evaluations,
-            reopened: self.past.reopened + now.reopened,
-            ..now
+impl Report {
+    /// This, and what was counted after it. What was held is no more.
+    fn and(self, later: Self) -> Self {
+        Self {
+            ground_actions: self.ground_actions + later.ground_actions,
+            facts: self.facts + later.facts,
+            expansions: self.expansions + later.expansions,
+            evaluations: self.evaluations + later.evaluations,
+            reopened: self.reopened + later.reopened,
+            bytes: later.bytes,
         }
     }
 }
@@ -233,24 +217,4 @@ impl From<Cut> for Outcome {
             Cut::Stopped(stop) => stop.into(),
         }
     }
-}
-
-/// What must not hold in the end, but holds initially and is neither deleted by any action nor derived.
-fn lasting(task: &GroundTask, budget: &Budget) -> Result<Vec<GroundAtom>, Cut> {
-    if task.negative_goal().is_empty() {
-        return Ok(Vec::new());
-    }
-    let initially: HashSet<FactId> = task.init().iter().copied().collect();
-    let mut lasting: HashSet<FactId> = task.negative_goal().iter().copied().collect();
-    lasting.retain(|fact| initially.contains(fact) && !task.derives(*fact));
-    let mut poll = Poll::new(budget);
-    for (_, op) in task.ops() {
-        poll.check(1 + op.deletes.len() + op.conditional.len())?;
-        let conditional = op.conditional.iter().filter(|effect| !effect.adds).map(|effect| &effect.fact);
-        for fact in op.deletes.iter().chain(conditional) {
-            lasting.remove(fact);
-        }
-    }
-    let kept = task.negative_goal().iter().filter(|fact| lasting.contains(fact));
-    Ok(kept.map(|&fact| task.atom(fact)).collect())
 }

@@ -197,7 +197,7 @@ fn classes(model: &ActionModel, task: &Task) -> Vec<Vec<Symbol>> {
 }
 
 /// The objects that actions and axioms name.
-fn constants(model: &ActionModel) -> BTreeSet<&Symbol> {
+pub(crate) fn constants(model: &ActionModel) -> BTreeSet<&Symbol> {
     let of_actions = model.actions.iter().flat_map(|action| {
         let conditions = action.effects.iter().flat_map(|effect| effect.condition.iter().chain([&effect.literal]));
         let atoms = action.preconditions.iter().chain(conditions).map(|literal| &literal.atom);

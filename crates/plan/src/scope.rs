@@ -1,0 +1,218 @@
+//! With which objects a large task is planned: first with those that can matter for the goal, then with more and more of
+//! them, in the end with all.
+//!
+//! In a room of 10,000 things a plan mentions a dozen. Level k = 1, 2, 4, … has the objects
+//!
+//! - that the goal or an action names,
+//! - within k steps of those of the goal, a step leading from one object of an initial atom to another, but none through
+//!   an object that is beside very many others,
+//! - that are the first k of their class, by name, with what is close beside each. Of one class are objects of one type of
+//!   which the initial atoms and the values say the same but for the other objects' names; their types count.
+//!
+//! A level that has more than a quarter of the objects is left out: it would cost as much as all of them. What is found
+//! with fewer objects is found with all, since a ground action is the same whatever objects there are besides; so this is
+//! done only where that is so: not where something holds, or happens, for all objects. That nothing is found with fewer
+//! objects says nothing.
+
+use std::borrow::Cow;
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+
+use typelift_model::{ActionModel, Budget, GroundAtom, HashMap, State, Symbol, Task, TypeId};
+
+use crate::Restrictions;
+use crate::reach::{Cut, reach};
+use crate::symmetry::constants;
+
+/// Tasks with at most so many objects are planned with all of them.
+const FEW_OBJECTS: usize = 400;
+/// A level has at most one in so many of the objects.
+const SHARE: usize = 4;
+/// What is beside more than so many others leads nowhere.
+const MANY_NEIGHBOURS: usize = 16;
+/// What is beside at most so many others brings them with it.
+const CLOSE_NEIGHBOURS: usize = 4;
+/// How many states may be expanded with the objects of level 1 before there are more objects.
+const EXPANSIONS: u64 = 2_000;
+
+/// A number of an object, by its place in name order.
+type Object = usize;
+
+/// The levels that a task has left.
+#[derive(Debug)]
+pub(crate) struct Scopes {
+    objects: Vec<Symbol>,
+    /// The objects that share an initial atom with each.
+    neighbours: Vec<Vec<Object>>,
+    /// The objects of each class, in the order of names.
+    classes: Vec<Vec<Object>>,
+    /// The number of steps from the goal's objects, where they lead there; 0 for what an action names.
+    distance: Vec<Option<usize>>,
+    /// The level, and whether each object is in it; `None` if it has all.
+    current: Option<(usize, Vec<bool>)>,
+}
+
+impl Scopes {
+    /// All objects at once.
+    pub(crate) fn whole() -> Self {
+        let (objects, neighbours, classes, distance) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Self { objects, neighbours, classes, distance, current: None }
+    }
+
+    /// The levels of a task, standing at the first.
+    pub(crate) fn of(model: &ActionModel, task: &Task, restrictions: &Restrictions) -> Self {
+        if task.init.objects.len() <= FEW_OBJECTS || speaks_of_all(model) {
+            return Self::whole();
+        }
+        let ids: HashMap<&Symbol, Object> = task.init.objects.keys().zip(0..).collect();
+        let neighbours = neighbours(task, &ids);
+        let near = task.goal_literals().flat_map(|(atom, _)| &atom.args).filter_map(|name| ids.get(name).copied());
+        let mut distance = distances(near, &neighbours);
+        for object in constants(model).into_iter().filter_map(|name| ids.get(name)) {
+            distance[*object] = Some(0);
+        }
+        let classes = classes(task, restrictions, &ids);
+        let objects = task.init.objects.keys().cloned().collect();
+        let mut this = Self { objects, neighbours, classes, distance, current: None };
+        this.current = this.level(1);
+        this
+    }
+
+    /// Goes on to the next level.
+    pub(crate) fn advance(&mut self) {
+        self.current = self.current.take().and_then(|(level, kept)| {
+            let size = |kept: &[bool]| kept.iter().filter(|kept| **kept).count();
+            let mut next = self.level(2 * level)?;
+            // The same objects once more would find no more.
+            while size(&next.1) == size(&kept) {
+                next = self.level(2 * next.0)?;
+            }
+            Some(next)
+        });
+    }
+
+    /// Whether this level has all objects.
+    pub(crate) fn is_whole(&self) -> bool {
+        self.current.is_none()
+    }
+
+    /// How many states may be expanded at this level for a plan, if there is a next.
+    pub(crate) fn expansions(&self) -> Option<u64> {
+        self.current.as_ref().map(|(level, _)| EXPANSIONS * *level as u64)
+    }
+
+    /// The task with the objects of this level alone.
+    pub(crate) fn restrict<'t>(&self, task: &'t Task) -> Cow<'t, Task> {
+        let Some((_, kept)) = &self.current else { return Cow::Borrowed(task) };
+        let kept: BTreeSet<&Symbol> =
+            self.objects.iter().zip(kept).filter(|(_, kept)| **kept).map(|(o, _)| o).collect();
+        let known = |atom: &&GroundAtom| atom.args.iter().all(|object| kept.contains(object));
+        let init = State {
+            objects: kept.iter().map(|&object| (object.clone(), task.init.objects[object])).collect(),
+            atoms: task.init.atoms.iter().filter(known).cloned().collect(),
+            unknown: task.init.unknown.iter().filter(known).cloned().collect(),
+        };
+        let values = task.values.iter().filter(|(atom, _)| known(atom)).map(|(atom, value)| (atom.clone(), *value));
+        let (goal, negative_goal) = (task.goal.clone(), task.negative_goal.clone());
+        Cow::Owned(Task { init, goal, negative_goal, values: values.collect() })
+    }
+
+    /// A level, unless it has so many objects that it may as well have all.
+    fn level(&self, level: usize) -> Option<(usize, Vec<bool>)> {
+        let mut kept: Vec<bool> =
+            self.distance.iter().map(|distance| distance.is_some_and(|steps| steps <= level)).collect();
+        for object in self.classes.iter().flat_map(|class| class.iter().take(level)) {
+            kept[*object] = true;
+            if self.neighbours[*object].len() <= CLOSE_NEIGHBOURS {
+                for &neighbour in &self.neighbours[*object] {
+                    kept[neighbour] = true;
+                }
+            }
+        }
+        let size = kept.iter().filter(|kept| **kept).count();
+        (size * SHARE <= kept.len()).then_some((level, kept))
+    }
+}
+
+/// Whether something holds or happens for all objects, so that fewer of them would be another task.
+fn speaks_of_all(model: &ActionModel) -> bool {
+    let mut effects = model.actions.iter().flat_map(|action| &action.effects);
+    !model.axioms.is_empty() || effects.any(|effect| !effect.parameters.is_empty())
+}
+
+fn neighbours(task: &Task, ids: &HashMap<&Symbol, Object>) -> Vec<Vec<Object>> {
+    let mut neighbours: Vec<Vec<Object>> = vec![Vec::new(); ids.len()];
+    for atom in &task.init.atoms {
+        let args: Vec<Object> = atom.args.iter().filter_map(|name| ids.get(name).copied()).collect();
+        for &one in &args {
+            neighbours[one].extend(args.iter().filter(|&&other| other != one));
+        }
+    }
+    for list in &mut neighbours {
+        list.sort_unstable();
+        list.dedup();
+    }
+    neighbours
+}
+
+/// The number of steps to each object.
+fn distances(from: impl Iterator<Item = Object>, neighbours: &[Vec<Object>]) -> Vec<Option<usize>> {
+    let mut distance = vec![None; neighbours.len()];
+    let mut queue: VecDeque<(Object, usize)> = from.map(|object| (object, 0)).collect();
+    while let Some((object, steps)) = queue.pop_front() {
+        if distance[object].is_some() {
+            continue;
+        }
+        distance[object] = Some(steps);
+        if neighbours[object].len() <= MANY_NEIGHBOURS {
+            queue.extend(neighbours[object].iter().map(|&neighbour| (neighbour, steps + 1)));
+        }
+    }
+    distance
+}
+
+/// What an initial atom or a value says of an object: which it is, and the types of the other objects.
+type Said<'a> = (Option<u32>, &'a Symbol, Vec<Option<TypeId>>);
+
+/// Objects of which the same is said; what failed before is told apart.
+fn classes(task: &Task, restrictions: &Restrictions, ids: &HashMap<&Symbol, Object>) -> Vec<Vec<Object>> {
+    let mut said: Vec<Vec<Said<'_>>> = vec![Vec::new(); ids.len()];
+    let values = task.values.iter().map(|(atom, value)| (atom, Some(*value)));
+    for (atom, value) in task.init.atoms.iter().map(|atom| (atom, None)).chain(values) {
+        let objects: BTreeSet<&Symbol> = atom.args.iter().collect();
+        for object in objects {
+            let Some(&id) = ids.get(object) else { continue };
+            let ty = |arg: &Symbol| task.init.objects.get(arg).copied().filter(|_| arg != object);
+            said[id].push((value, &atom.predicate, atom.args.iter().map(ty).collect()));
+        }
+    }
+    let distrusted: BTreeSet<&Symbol> = restrictions.excluded.iter().map(|exclusion| &exclusion.object).collect();
+    let mut classes: BTreeMap<(TypeId, bool, Vec<Said<'_>>), Vec<Object>> = BTreeMap::new();
+    for ((object, (name, ty)), mut said) in task.init.objects.iter().enumerate().zip(said) {
+        said.sort_unstable();
+        classes.entry((*ty, distrusted.contains(name), said)).or_default().push(object);
+    }
+    classes.into_values().collect()
+}
+
+/// Whether all goals can be reached, if nothing is ever deleted, with some of a large task's objects. If not, with all of
+/// them they may still be: this asks no question that [`ground`](crate::ground) would have to be asked anyway.
+///
+/// # Errors
+/// [`Cut`] if the budget ends it.
+pub fn reaches_goals_with_fewer_objects(
+    model: &ActionModel,
+    task: &Task,
+    restrictions: &Restrictions,
+    budget: &Budget,
+) -> Result<bool, Cut> {
+    let mut scopes = Scopes::of(model, task, restrictions);
+    while !scopes.is_whole() {
+        let task = scopes.restrict(task);
+        let facts = reach(model, &task, restrictions, budget)?.facts;
+        if task.goal.iter().all(|atom| facts.find(atom).is_some_and(|fact| facts.is_reached(fact))) {
+            return Ok(true);
+        }
+        scopes.advance();
+    }
+    Ok(false)
+}
