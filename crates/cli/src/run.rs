@@ -224,7 +224,6 @@ impl Run {
             restart: self.restart,
             retries: self.retries,
             max_proposals: self.max_proposals,
-            ..Options::default()
         })
     }
 

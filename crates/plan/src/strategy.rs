@@ -41,6 +41,9 @@ pub(crate) enum Stage {
     Weighted(u32),
 }
 
+/// With more goals than this ordered landmarks are left out.
+const MOST_GOALS_IN_ORDER: usize = 50;
+
 /// The weights with which cheaper plans are looked for, in turn.
 const WEIGHTS: [u32; 4] = [5, 3, 2, 1];
 
@@ -101,9 +104,13 @@ impl Strategy {
                 let parts = Parts::new(stage, ground, space, budget)?;
                 match stage {
                     Stage::First => {
+                        // What lists many goals is not what ordered landmarks are for.
+                        let few = (task.goal.len() <= MOST_GOALS_IN_ORDER)
+                            .then(|| Self::OrderedLandmarks.search(stage, ground, space, 1, budget));
                         let lasting = [Preference::Helpful, Preference::Preferred]
                             .map(|preference| Box::new(parts.lama(space, preference)) as Box<dyn Search>);
-                        Box::new(Interleaved::new(lasting.into(), Box::new(parts)))
+                        let lasting = few.transpose()?.into_iter().chain(lasting).collect();
+                        Box::new(Interleaved::new(lasting, Box::new(parts)))
                     }
                     Stage::Weighted(_) => Box::new(parts.lama(space, Preference::Helpful)),
                 }

@@ -48,7 +48,7 @@ pub(crate) struct Interleaved {
 impl Interleaved {
     pub(crate) fn new(lasting: Vec<Box<dyn Search>>, attempts: Box<dyn Attempts>) -> Self {
         let restarting = Restarting { attempts, number: 0, current: None, left: 0, past: Report::default() };
-        Self { lasting, restarting, turn: 0, left: 2 * FIRST_TURN, length: FIRST_TURN, improvements: 0 }
+        Self { lasting, restarting, turn: 0, left: FIRST_TURN, length: FIRST_TURN, improvements: 0 }
     }
 
     fn end_turn(&mut self) {
@@ -61,8 +61,7 @@ impl Interleaved {
             }
         }
         self.improvements = improvements(self.turn);
-        // The first is what is trusted most.
-        self.left = if self.turn == 0 { 2 * self.length } else { self.length };
+        self.left = self.length;
     }
 }
 
