@@ -1,5 +1,5 @@
 //! How long learning and planning take in the kitchen: reading and learning the eight demonstrations, and for each of
-//! the 24 tasks grounding, imagining and planning. The items counted are states, transitions, ground actions and
+//! the 24 tasks grounding, imagining and planning, and a task by every strategy. The items counted are states, transitions, ground actions and
 //! expansions. Run with `cargo bench -p typelift-tests`.
 
 use divan::counter::ItemsCount;
@@ -8,7 +8,7 @@ use typelift::agent::{Options, Proposal, propose};
 use typelift::imagine::{self, imagine};
 use typelift::learn::{self, evidence_of, learn};
 use typelift::model::{ActionModel, Budget, Task, strict};
-use typelift::plan::{Restrictions, TieOrder, ground};
+use typelift::plan::{self, Planner, Restrictions, Strategy, TieOrder, ground};
 use typelift_kitchen::{demonstrations, tasks};
 use typelift_tests::{dataset_of, kitchen_model, planning_task};
 
@@ -70,7 +70,7 @@ fn ground_actions(bencher: Bencher, name: &str) {
 
 /// Everything from the task to a plan that was checked: imagination, grounding, landmarks, search, check.
 #[divan::bench(args = names(), max_time = 0.5)]
-fn plan(bencher: Bencher, name: &str) {
+fn propose_plan(bencher: Bencher, name: &str) {
     let (model, task) = asked(name);
     let options = Options { imagine: Some(imagine::Options::default()), ..Options::default() };
     let planned = || -> Proposal {
@@ -78,4 +78,20 @@ fn plan(bencher: Bencher, name: &str) {
     };
     let expansions = planned().report().expansions;
     bencher.counter(ItemsCount::new(expansions)).bench(planned);
+}
+
+/// Every strategy on a task that all of them solve.
+#[divan::bench(args = Strategy::ALL, max_time = 0.5)]
+fn search(bencher: Bencher, strategy: Strategy) {
+    let (model, task) = asked("T1.2");
+    let options = plan::Options { strategy, ..plan::Options::default() };
+    let solved = || {
+        let unlimited = Budget::unlimited();
+        let mut planner =
+            Planner::new(black_box(&model), &task, &Restrictions::default(), &options, &unlimited).expect("no limits");
+        planner.next_plan(&unlimited);
+        planner.report().evaluations
+    };
+    let evaluations = solved();
+    bencher.counter(ItemsCount::new(evaluations)).bench(solved);
 }

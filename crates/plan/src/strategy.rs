@@ -89,44 +89,58 @@ impl Strategy {
         self,
         stage: Stage,
         ground: &GroundTask,
-        space: &Space,
+        space: &mut Space,
         plans: usize,
         budget: &Budget,
     ) -> Result<Box<dyn Search>, Cut> {
-        let task = &space.task;
-        let relaxation = || Arc::new(Relaxation::new(task, Negatives::Propositions));
+        space.bytes = space.task_bytes;
         Ok(match self {
-            Self::OrderedLandmarks => {
-                let heuristic = OrderedLandmarks::new(sequences(ground, task, budget)?);
-                Box::new(AStar::new(space, Box::new(heuristic), false, plans))
+            Self::OrderedLandmarks => Box::new(ordered(ground, space, plans, budget)?),
+            Self::AStarLmCut => {
+                let relaxation = Arc::new(Relaxation::new(&space.task, Negatives::Propositions));
+                Box::new(AStar::new(space, Box::new(LmCut::new(&space.task, relaxation)), true, plans))
             }
-            Self::Lama => {
+            Self::AStarBlind => Box::new(AStar::new(space, Box::new(Blind::new(&space.task)), true, plans)),
+            Self::Lama | Self::LazyFf | Self::LazyLandmarks => {
                 let parts = Parts::new(stage, ground, space, budget)?;
-                match stage {
-                    Stage::First => {
-                        // What lists many goals is not what ordered landmarks are for.
-                        let few = (task.goal.len() <= MOST_GOALS_IN_ORDER)
-                            .then(|| Self::OrderedLandmarks.search(stage, ground, space, 1, budget));
-                        let lasting = [Preference::Helpful, Preference::Preferred]
-                            .map(|preference| Box::new(parts.lama(space, preference)) as Box<dyn Search>);
-                        let lasting = few.transpose()?.into_iter().chain(lasting).collect();
-                        Box::new(Interleaved::new(lasting, Box::new(parts)))
-                    }
-                    Stage::Weighted(_) => Box::new(parts.lama(space, Preference::Helpful)),
-                }
+                space.bytes += parts.bytes();
+                self.lazy_search(stage, parts, ground, space, budget)?
             }
-            Self::LazyFf => {
-                let parts = Parts::new(stage, ground, space, budget)?;
-                Box::new(parts.lazy(space, vec![Box::new(parts.ff())], Preference::Preferred))
-            }
-            Self::LazyLandmarks => {
-                let parts = Parts::new(stage, ground, space, budget)?;
-                Box::new(parts.lazy(space, vec![Box::new(parts.landmark_count(space))], Preference::None))
-            }
-            Self::AStarLmCut => Box::new(AStar::new(space, Box::new(LmCut::new(task, relaxation())), true, plans)),
-            Self::AStarBlind => Box::new(AStar::new(space, Box::new(Blind::new(task)), true, plans)),
         })
     }
+
+    fn lazy_search(
+        self,
+        stage: Stage,
+        parts: Parts,
+        ground: &GroundTask,
+        space: &Space,
+        budget: &Budget,
+    ) -> Result<Box<dyn Search>, Cut> {
+        Ok(match (self, stage) {
+            (Self::LazyFf, _) => Box::new(parts.lazy(space, vec![Box::new(parts.ff())], Preference::Preferred)),
+            (Self::LazyLandmarks, _) => {
+                Box::new(parts.lazy(space, vec![Box::new(parts.landmark_count(space))], Preference::None))
+            }
+            (_, Stage::First) => {
+                let mut lasting: Vec<Box<dyn Search>> = Vec::new();
+                if space.task.goal.len() <= MOST_GOALS_IN_ORDER {
+                    lasting.push(Box::new(ordered(ground, space, 1, budget)?));
+                }
+                for preference in [Preference::Helpful, Preference::Preferred] {
+                    lasting.push(Box::new(parts.lama(space, preference)));
+                }
+                Box::new(Interleaved::new(lasting, Box::new(parts)))
+            }
+            (_, Stage::Weighted(_)) => Box::new(parts.lama(space, Preference::Helpful)),
+        })
+    }
+}
+
+/// The paper's search.
+fn ordered(ground: &GroundTask, space: &Space, plans: usize, budget: &Budget) -> Result<AStar, Cut> {
+    let heuristic = OrderedLandmarks::new(sequences(ground, &space.task, budget)?);
+    Ok(AStar::new(space, Box::new(heuristic), false, plans))
 }
 
 /// What lazy searches of one stage share.
@@ -151,6 +165,10 @@ impl Parts {
         let undominated = Arc::new(Undominated::of(&relaxation, &costs));
         let landmarks = LandmarkGraph::new(ground, &space.task, &relaxation, &mut Poll::new(budget))?;
         Ok(Self { priority, measure, relaxation, undominated, costs, landmarks: Arc::new(landmarks) })
+    }
+
+    fn bytes(&self) -> u64 {
+        self.relaxation.bytes() + self.undominated.bytes() + self.costs.len() as u64 * 4
     }
 
     fn ff(&self) -> Ff {

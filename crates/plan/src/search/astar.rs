@@ -88,7 +88,9 @@ impl AStar {
     fn bytes(&self) -> u64 {
         // A node with its share of the open list.
         let node = std::mem::size_of::<Node>() + self.memory_len * 4 + 24;
-        self.registry.len() as u64 * (self.registry.bytes_per_state() + 8) + self.nodes.len() as u64 * node as u64
+        self.registry.len() as u64 * (self.registry.bytes_per_state() + 8)
+            + self.nodes.len() as u64 * node as u64
+            + self.heuristic.bytes()
     }
 
     /// Estimates the state in `after`, and adds a node of it unless enough equal ones are known that are at least as good.

@@ -130,7 +130,12 @@ impl Lazy {
 
     fn bytes(&self) -> u64 {
         let node = self.registry.bytes_per_state() + std::mem::size_of::<Node>() as u64 + self.memory_len as u64 * 4;
-        self.nodes.len() as u64 * node + self.open.len() as u64 * ENTRY
+        let heuristics: u64 = self.heuristics.iter().map(|heuristic| heuristic.bytes()).sum();
+        self.nodes.len() as u64 * node
+            + self.open.len() as u64 * ENTRY
+            + heuristics
+            + self.preferred.len() as u64 * 8
+            + self.costs.len() as u64 * 4
     }
 
     fn plan(&self, goal: StateId) -> Vec<ActionIndex> {

@@ -67,8 +67,19 @@ pub(crate) struct Space {
     pub(crate) task: Fdr,
     pub(crate) successors: SuccessorGenerator,
     pub(crate) symmetry: Symmetry,
-    /// Bytes that the ground task holds.
+    /// Bytes that the task holds, ground and in columns.
+    pub(crate) task_bytes: u64,
+    /// Bytes that the task holds, and what its searches share.
     pub(crate) bytes: u64,
+}
+
+impl Space {
+    /// What is searched is this ground task, which holds so many bytes.
+    pub(crate) fn new(task: Fdr, symmetry: Symmetry, ground_bytes: u64) -> Self {
+        let successors = SuccessorGenerator::new(&task);
+        let bytes = ground_bytes + task.bytes() + successors.bytes();
+        Self { task, successors, symmetry, task_bytes: bytes, bytes }
+    }
 }
 
 /// What a search came to.
