@@ -12,7 +12,7 @@ use crate::landmark::{LandmarkGraph, sequences};
 use crate::poll::Poll;
 use crate::reach::Cut;
 use crate::relaxation::{Negatives, Relaxation};
-use crate::search::{AStar, Attempts, Interleaved, Lazy, Preference, Priority, Search, Space};
+use crate::search::{AStar, Attempts, EAGER, Interleaved, Lazy, Preference, Priority, Search, Space};
 use crate::shuffle::Shuffler;
 
 /// A way to search for plans.
@@ -123,12 +123,12 @@ impl Strategy {
                 Box::new(parts.lazy(space, vec![Box::new(parts.landmark_count(space))], Preference::None))
             }
             (_, Stage::First) => {
-                let mut lasting: Vec<Box<dyn Search>> = Vec::new();
+                let mut lasting: Vec<(Box<dyn Search>, u64)> = Vec::new();
                 if space.task.goal.len() <= MOST_GOALS_IN_ORDER {
-                    lasting.push(Box::new(ordered(ground, space, 1, budget)?));
+                    lasting.push((Box::new(ordered(ground, space, 1, budget)?), EAGER));
                 }
                 for preference in [Preference::Helpful, Preference::Preferred] {
-                    lasting.push(Box::new(parts.lama(space, preference)));
+                    lasting.push((Box::new(parts.lama(space, preference)), 1));
                 }
                 Box::new(Interleaved::new(lasting, Box::new(parts)))
             }

@@ -12,6 +12,9 @@ use super::{Found, Outcome, Report, Search, Space};
 /// The expansions of the first turn.
 const FIRST_TURN: u64 = 500;
 
+/// Of a search that estimates every successor, an expansion counts as so many of one that estimates what it expands.
+pub(crate) const EAGER: u64 = 4;
+
 /// The expansions after which a search that begins anew does so for the first time.
 const FIRST_ATTEMPT: u64 = 500;
 
@@ -36,6 +39,8 @@ struct Restarting {
 #[derive(Debug)]
 pub(crate) struct Interleaved {
     lasting: Vec<Box<dyn Search>>,
+    /// What an expansion of each counts.
+    weights: Vec<u64>,
     restarting: Restarting,
     /// Whose turn it is, and how many expansions of it are left.
     turn: usize,
@@ -46,9 +51,12 @@ pub(crate) struct Interleaved {
 }
 
 impl Interleaved {
-    pub(crate) fn new(lasting: Vec<Box<dyn Search>>, attempts: Box<dyn Attempts>) -> Self {
+    /// Lasting searches, each with what an expansion of it counts, and the attempts of one that begins anew.
+    pub(crate) fn new(lasting: Vec<(Box<dyn Search>, u64)>, attempts: Box<dyn Attempts>) -> Self {
+        let (lasting, weights): (Vec<_>, Vec<_>) = lasting.into_iter().unzip();
+        let left = FIRST_TURN / weights.first().unwrap_or(&1);
         let restarting = Restarting { attempts, number: 0, current: None, left: 0, past: Report::default() };
-        Self { lasting, restarting, turn: 0, left: FIRST_TURN, length: FIRST_TURN, improvements: 0 }
+        Self { lasting, weights, restarting, turn: 0, left, length: FIRST_TURN, improvements: 0 }
     }
 
     fn end_turn(&mut self) {
@@ -61,7 +69,7 @@ impl Interleaved {
             }
         }
         self.improvements = improvements(self.turn);
-        self.left = self.length;
+        self.left = self.length / self.weights.get(self.turn).unwrap_or(&1);
     }
 }
 

@@ -8,7 +8,7 @@ mod open_list;
 use std::fmt::Debug;
 
 pub(crate) use astar::AStar;
-pub(crate) use interleaved::{Attempts, Interleaved};
+pub(crate) use interleaved::{Attempts, EAGER, Interleaved};
 pub(crate) use lazy::{Lazy, Preference, Priority};
 
 use typelift_model::{Budget, Plan, Stop};
