@@ -6,23 +6,39 @@
 The kitchen's demonstrations and tasks are written to FOLDER, a model is learned, and each task is exported at both
 levels; tasks that need imagination are exported with it. Each planner that is installed solves each. Whatever level a
 plan was found at, it counts if it is one in the problem as level adl states it, by unified-planning, and in the model
-that was exported, by `typelift validate`.
+that was exported, by `typelift validate`. Then it is carried out in the kitchen, by `typelift run`; where the kitchen
+refuses a step, the same planner is asked for another plan without what failed: with --restart, from the beginning; if
+that leads nowhere, since objects are then excluded from everything, again from where the kitchen stands.
 
 The planners are looked for in the Python that runs this:
 
     pip install pyperplan up-fast-downward pymimir unified-planning
 
-Prints a Markdown table of plan lengths. Exit code 1 if a planner that is installed does not solve a task.
+Prints a Markdown table of plan lengths; beside a length, how many proposals it took if the first was not carried out to
+the goal. Exit code 1 if a planner that is installed does not solve a task, or its plans do not in the kitchen. Models
+and tasks that are given are not carried out.
 """
 
 import argparse
+import itertools
 import json
+import os
+import re
+import shlex
+import shutil
 import subprocess
 import sys
+import time
 from importlib.util import find_spec
 from pathlib import Path
 
 LEVELS = ["strips", "adl"]
+
+# The first argument of this script where `typelift run` calls it as a planner.
+AGAIN = "--again"
+
+# An exit code of Fast Downward.
+OUT_OF_TIME = 23
 
 MIMIR = """
 import sys, pymimir
@@ -31,7 +47,8 @@ domain = pymimir.Domain(domain)
 problem = pymimir.Problem(domain, problem)
 found = pymimir.gbfs_lazy(problem, problem.get_initial_state(), pymimir.FFHeuristic(problem), float(seconds))
 if found.solution is None:
-    sys.exit(f"mimir: {found.status}")
+    print(f"mimir: {found.status}")
+    sys.exit(11 if "UNSOLVABLE" in str(found.status).upper() or "EXHAUSTED" in str(found.status).upper() else 12)
 with open(plan, "w") as out:
     for action in found.solution:
         names = [action.get_action().get_name()] + [thing.get_name() for thing in action.get_objects()]
@@ -53,13 +70,14 @@ for plan in plans:
 """
 
 
-def run(command, seconds, log):
-    """Whether a command ends well and in time; what it says goes to a file."""
+def run(command, seconds, log, **variables):
+    """The code with which a command ends, Fast Downward's if it takes too long; what it says goes to a file."""
     try:
         with open(log, "w") as out:
-            return subprocess.run(command, stdout=out, stderr=out, timeout=seconds).returncode == 0
+            ended = subprocess.run(command, stdout=out, stderr=out, timeout=seconds, env=os.environ | variables)
+            return ended.returncode
     except subprocess.TimeoutExpired:
-        return False
+        return OUT_OF_TIME
 
 
 def output(command):
@@ -82,19 +100,27 @@ class Planner:
         self.name, self.levels, self.solve = name, levels, solve
 
 
-# Heuristics and searches, tried in turn: on one plateau or another, each gets lost.
-PYPERPLAN = [("lmcut", "gbf"), ("hff", "gbf"), ("hff", "wastar"), ("hsa", "gbf")]
+# Enforced hill-climbing succeeds or fails within seconds, or gets lost on a plateau; which of these depends on the order
+# in which operators come out of Python's sets, and so on the seed of its hashes. So it is begun again with other seeds.
+PYPERPLAN = [("hadd", "ehs"), ("hff", "ehs")]
+PYPERPLAN_SECONDS = 15
 
 
 def pyperplan(seconds):
     def solve(domain, problem, plan, log):
         written = Path(f"{problem}.soln")
-        for heuristic, search in PYPERPLAN:
-            command = [sys.executable, "-m", "pyperplan", "-H", heuristic, "-s", search, domain, problem]
-            if run(command, seconds / len(PYPERPLAN), log) and written.exists():
-                written.rename(plan)
-                return True
-        return False
+        written.unlink(missing_ok=True)
+        until = time.monotonic() + seconds
+        for seed in itertools.count():
+            for heuristic, search in PYPERPLAN:
+                left = until - time.monotonic()
+                if left <= 0:
+                    return OUT_OF_TIME
+                command = [sys.executable, "-m", "pyperplan", "-H", heuristic, "-s", search, domain, problem]
+                ended = run(command, min(left, PYPERPLAN_SECONDS), log, PYTHONHASHSEED=str(seed))
+                if ended == 0 and written.exists():
+                    written.rename(plan)
+                    return 0
 
     return Planner("pyperplan", ["strips"], solve)
 
@@ -114,15 +140,19 @@ def mimir(seconds):
     return Planner("mimir", LEVELS, solve)
 
 
-def planners(arguments):
+def planners(seconds, driver):
     """Those that are installed."""
-    found = [pyperplan(arguments.seconds)] if find_spec("pyperplan") else []
-    driver = arguments.fast_downward
+    found = [pyperplan(seconds)] if find_spec("pyperplan") else []
     if driver is None and find_spec("up_fast_downward"):
         driver = Path(find_spec("up_fast_downward").origin).parent / "downward" / "fast-downward.py"
     if driver is not None:
-        found.append(fast_downward(driver, arguments.seconds))
-    return found + ([mimir(arguments.seconds)] if find_spec("pymimir") else [])
+        found.append(fast_downward(driver, seconds))
+    return found + ([mimir(seconds)] if find_spec("pymimir") else [])
+
+
+def plan_name(planner):
+    """The file of a planner's plan."""
+    return f"{planner.replace(' ', '-').lower()}.plan"
 
 
 def natural(path):
@@ -163,8 +193,44 @@ def come_back(typelift, model, task, plans, imagine):
     return [subprocess.run([*command, plan], capture_output=True).returncode == 0 for plan in plans]
 
 
+def content(pddl):
+    """What a PDDL file says, whatever it and its domain are called."""
+    text = re.sub(r";.*", "", pddl.read_text())
+    return re.sub(r"\((domain|problem|:domain) [^()]*\)", "", text).split()
+
+
+def again(arguments):
+    """As the command of `typelift run --planner`: the plan that was found before, if the problem is the same; else, a
+    new one."""
+    folder, name, seconds, domain, problem, plan = arguments
+    folder, domain, problem, plan = Path(folder), Path(domain), Path(problem), Path(plan)
+    before = [folder / "domain.pddl", folder / "problem.pddl"]
+    if [content(file) for file in before] == [content(domain), content(problem)]:
+        shutil.copy(folder / plan_name(name), plan)
+        return 0
+    planner = next(planner for planner in planners(float(seconds), None) if planner.name == name)
+    # As it ended: where there is no plan, typelift lifts what it had excluded.
+    return planner.solve(domain, problem, plan, plan.with_suffix(".log"))
+
+
+def carried_out(arguments, model, task, plan, planner, level, imagine):
+    """What `typelift run` says of a plan in the kitchen."""
+    words = [sys.executable, Path(__file__).resolve(), AGAIN, plan.parent.resolve(), planner, arguments.seconds]
+    command = f"{shlex.join(map(str, words))} {{domain}} {{problem}} {{plan}}"
+    options = ["--kitchen", "--json", "--planner", command, "--planner-level", level, *imagine]
+    for restart in [["--restart"], []]:
+        run_it = [arguments.typelift, "run", model, task, *options, *restart]
+        ended = subprocess.run(run_it, capture_output=True, text=True)
+        plan.with_suffix(".run").write_text(ended.stdout + ended.stderr)
+        report = json.loads(ended.stdout) if ended.stdout else {"solved": False}
+        if report["solved"]:
+            how = "" if restart else " without restart"
+            return "" if report["proposals"] == 1 else f" ({report['proposals']} proposals{how})"
+    return " (not achieved)"
+
+
 def solve_task(arguments, found, model, task):
-    """A row of the table, and how many cells of it are no valid plan."""
+    """A row of the table, and how many cells of it are no valid plan, or none that leads to the goal."""
     length, imagine = own_plan(arguments.typelift, model, task)
     cells, plans = {}, {}
     for level in LEVELS:
@@ -173,18 +239,22 @@ def solve_task(arguments, found, model, task):
         for planner in found:
             if level not in planner.levels:
                 continue
-            plan = folder / f"{planner.name.replace(' ', '-').lower()}.plan"
+            plan = folder / plan_name(planner.name)
             plan.unlink(missing_ok=True)
             solved = planner.solve(folder / "domain.pddl", folder / "problem.pddl", plan, plan.with_suffix(".log"))
             cells[planner.name, level] = None
-            if solved and plan.exists():
+            if solved == 0 and plan.exists():
                 plans[planner.name, level] = plan
     stated = arguments.folder / "exported" / f"{task.stem}-adl"
     judged = are_valid(stated / "domain.pddl", stated / "problem.pddl", list(plans.values()))
     returned = come_back(arguments.typelift, model, task, plans.values(), imagine)
     for (key, plan), valid, back in zip(plans.items(), judged, returned):
-        cells[key] = str(len(steps(plan))) if valid is not False and back else "not a plan"
-    bad = sum(cell is None or not cell.isdigit() for cell in cells.values())
+        if valid is False or not back:
+            cells[key] = "not a plan"
+            continue
+        ran = "" if arguments.given else carried_out(arguments, model, task, plan, *key, imagine)
+        cells[key] = f"{len(steps(plan))}{ran}"
+    bad = sum(cell is None or cell.startswith("not") or cell.endswith("(not achieved)") for cell in cells.values())
     own = "–" if length is None else f"{length}{' imagined' if imagine else ''}"
     return [task.stem, own] + [cell or "–" for cell in cells.values()], list(cells), bad
 
@@ -195,10 +265,10 @@ def main():
     parser.add_argument("folder", type=Path, help="where to write; made if it is not there")
     parser.add_argument("given", nargs="*", metavar="MODEL TASK…", help="another model and tasks for it")
     parser.add_argument("--fast-downward", metavar="FILE", help="the driver, fast-downward.py")
-    parser.add_argument("--seconds", type=float, default=60, help="the time for one task (default: %(default)s)")
+    parser.add_argument("--seconds", type=float, default=120, help="the time for one task (default: %(default)s)")
     arguments = parser.parse_args()
     arguments.folder.mkdir(parents=True, exist_ok=True)
-    found = planners(arguments)
+    found = planners(arguments.seconds, arguments.fast_downward)
     if not found:
         sys.exit("no planner is installed for this Python")
     model, tasks = prepare(arguments.typelift, arguments.folder, arguments.given)
@@ -214,4 +284,6 @@ def main():
 
 
 if __name__ == "__main__":
+    if sys.argv[1:2] == [AGAIN]:
+        sys.exit(again(sys.argv[2:]))
     main()

@@ -278,6 +278,20 @@ pub enum Cheapest {
 
 /// The cost of the cheapest plan, by visiting states in the order of their cost, at most so many.
 pub fn cheapest(instances: &[Instance], task: &Task, most: usize) -> Cheapest {
+    cheapest_through(instances, task, most, |_| true)
+}
+
+/// The same, through states in which an atom never holds.
+pub fn cheapest_without(instances: &[Instance], task: &Task, most: usize, avoided: &GroundAtom) -> Cheapest {
+    cheapest_through(instances, task, most, |atoms| !atoms.contains(avoided))
+}
+
+fn cheapest_through(
+    instances: &[Instance],
+    task: &Task,
+    most: usize,
+    may_pass: impl Fn(&BTreeSet<GroundAtom>) -> bool,
+) -> Cheapest {
     let mut best = BTreeMap::from([(task.init.atoms.clone(), 0)]);
     let mut queue = BTreeSet::from([(0, task.init.atoms.clone())]);
     while let Some((cost, atoms)) = queue.pop_first() {
@@ -285,7 +299,7 @@ pub fn cheapest(instances: &[Instance], task: &Task, most: usize) -> Cheapest {
             return Cheapest::Cost(cost);
         }
         for instance in instances {
-            let Some(after) = apply(instance, &atoms) else { continue };
+            let Some(after) = apply(instance, &atoms).filter(&may_pass) else { continue };
             let cost = cost + u64::from(instance.cost);
             if best.get(&after).is_none_or(|&known| cost < known) {
                 best.insert(after.clone(), cost);

@@ -54,9 +54,9 @@ impl PlannerCommand {
                 return Err(format!("the command says nowhere where the planner finds {place}"));
             }
         }
-        // The command runs elsewhere.
-        let here = |word: String| match Path::new(&word).canonicalize() {
-            Ok(path) if word.contains('/') => path.to_string_lossy().into_owned(),
+        // The command runs elsewhere. Links stay: a virtual environment's interpreter is known by the place of its link.
+        let here = |word: String| match std::path::absolute(&word) {
+            Ok(path) if word.contains('/') && path.exists() => path.to_string_lossy().into_owned(),
             _ => word,
         };
         Ok(Self { words: words.into_iter().map(here).collect(), level })

@@ -27,6 +27,18 @@ pub(crate) struct TaskReport<'a> {
     excluded: Vec<ExclusionReport>,
 }
 
+/// What is printed of a task with `--json` if its environment or its planner failed: there is no account then.
+pub(crate) fn broken_off(task: &str, why: &str) -> String {
+    #[derive(Serialize)]
+    struct BrokenOff<'a> {
+        task: &'a str,
+        solved: bool,
+        ending: &'static str,
+        why: &'a str,
+    }
+    serde_json::to_string(&BrokenOff { task, solved: false, ending: "broken_off", why }).unwrap_or_default()
+}
+
 #[derive(Serialize)]
 struct FailureReport {
     proposal: u64,

@@ -29,7 +29,7 @@ Writes domain.pddl, problem.pddl if there is a task, and names.json, which says
 what the names in a plan stand for. Other planners read them, as
 
   fast-downward --alias lama-first lettuce/domain.pddl lettuce/problem.pddl
-  pyperplan -H hff -s gbf apple/domain.pddl apple/problem.pddl")]
+  pyperplan -H hadd -s ehs apple/domain.pddl apple/problem.pddl")]
 pub(crate) struct Export {
     /// The model, as `learn` wrote it, or a PDDL domain
     model: PathBuf,

@@ -16,7 +16,7 @@ use crate::lab_progress::Bar;
 use crate::lab_report::LabReport;
 use crate::lab_table::LabTable;
 use crate::limits::{Clock, Interrupt, parse_duration, parse_whole};
-use crate::style::{WARNING, count};
+use crate::style::WARNING;
 
 /// Run the paper's experiments again, and set ours beside the published numbers
 #[derive(Debug, clap::Args)]
@@ -153,7 +153,7 @@ impl LabOptions {
 /// Warns of results that are the limits' rather than the algorithms'.
 pub(crate) fn warn(out_of_time: usize, solved: bool) {
     if out_of_time > 0 {
-        let tasks = count(out_of_time as u64, "search");
+        let tasks = if out_of_time == 1 { "1 search".to_owned() } else { format!("{out_of_time} searches") };
         anstream::eprintln!(
             "{WARNING}warning{WARNING:#}: --time-limit ended {tasks}: on another machine the result may be another"
         );

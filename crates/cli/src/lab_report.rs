@@ -121,6 +121,9 @@ fn print(out: &mut impl Write, judged: &[Judged]) -> Result<(), Failure> {
     }
     let measured = judged.iter().filter_map(|judged| judged.finding.as_ref());
     let (held, count) = (measured.clone().filter(|finding| finding.held).count(), measured.count());
-    writeln!(out, "{HEAD}{held} of {count} claims that were measured held.{HEAD:#}")?;
+    match count {
+        0 => writeln!(out, "{HEAD}None of the claims was measured.{HEAD:#}")?,
+        _ => writeln!(out, "{HEAD}{held} of {count} claims that were measured held.{HEAD:#}")?,
+    }
     Ok(())
 }

@@ -14,7 +14,7 @@ use typelift::model::{ActionModel, Plan, Task};
 use typelift::world::{FileError, Parser, Reset, Scene, TaskFile, World, WorldError};
 use typelift_kitchen::Kitchen;
 
-use crate::account::{report, summary};
+use crate::account::{broken_off, report, summary};
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::{TaskInput, keep_inputs, read_model_input, task_name};
@@ -170,6 +170,9 @@ impl Run {
             if interrupt.is_set() && ran.is_err() {
                 return Ok(Exit::Interrupted);
             }
+            if let (true, Err(error)) = (self.json, &ran) {
+                writeln!(out, "{}", broken_off(&name, &error.to_string()))?;
+            }
             let account = ran.map_err(|error| Failure::from(error).in_file(path))?;
             if let Some(error) = narrator.events_error.take() {
                 return Err(Failure::bad_input(format!("--events: {error}")));
@@ -221,7 +224,6 @@ impl Run {
             restart: self.restart,
             retries: self.retries,
             max_proposals: self.max_proposals,
-            ..Options::default()
         })
     }
 

@@ -89,6 +89,13 @@ fn task() -> Task {
     Task { negative_goal, ..Task::new(init, vec![ground("is_Ready(saw_1)")]) }
 }
 
+/// The task, something in whose initial state keeps what must hold from saying what may not.
+fn task_that_implies_nothing() -> Task {
+    let mut task = task();
+    task.init.atoms.insert(ground("near(saw_2,shelf_1)"));
+    task
+}
+
 fn exported(model: &ActionModel, task: Option<&Task>, level: Level) -> Result<Exported, ExportError> {
     export(model, task, &ExportOptions { domain: "Small world".into(), problem: "first".into(), level })
 }
@@ -226,6 +233,7 @@ const STRIPS_INIT: &str = "  (:init
     (differ saw_2 shelf_1)
     (is_ready saw_2)
     (near saw_1 shelf_1)
+    (near saw_2 shelf_1)
     (not-is_ready saw_1))
   (:goal (and
     (is_ready saw_1)
@@ -235,7 +243,8 @@ const STRIPS_INIT: &str = "  (:init
 
 #[test]
 fn strips_has_no_negation() {
-    let (domain, problem) = written(&model(), Some(&task()), Level::Strips);
+    let task = task_that_implies_nothing();
+    let (domain, problem) = written(&model(), Some(&task), Level::Strips);
     assert!(domain.contains("(:requirements :strips :typing)\n"), "{domain}");
     for note in [
         "; differ holds of things that are not the same\n",
@@ -360,6 +369,69 @@ fn what_may_be_added_and_deleted_at_once_has_no_opposite() {
     }
 }
 
+/// A hand that is empty or holds something, and takes things from where they stand; `USE-machine` is what it does then.
+fn with_a_hand() -> ActionModel {
+    let mut model = model();
+    let action = |name: &str, list: &[(&str, &str)], preconditions: &[&str], all: &[&str]| ActionSchema {
+        name: name.into(),
+        call: LiftedCall { name: name.into(), args: (0..list.len() as u32).map(Term::Param).collect() },
+        parameters: parameters(list),
+        preconditions: literals(preconditions),
+        distinct: Vec::new(),
+        effects: effects(all),
+        cost: Cost::UNIT,
+        provenance: Provenance::Given,
+    };
+    let places = [("who", "agent"), ("what", "machine"), ("where", "station")];
+    model.actions = vec![
+        action(
+            "take",
+            &places,
+            &["empty(?0)", "at(?1,?2)", "not holds(?0,?1)"],
+            &["not empty(?0)", "not at(?1,?2)", "holds(?0,?1)"],
+        ),
+        action(
+            "put",
+            &places,
+            &["holds(?0,?1)", "not empty(?0)", "not at(?1,?2)", "not dark()"],
+            &["empty(?0)", "at(?1,?2)", "not holds(?0,?1)"],
+        ),
+    ];
+    model.predicates.extend([(Symbol::new("empty"), 1), (Symbol::new("holds"), 2)]);
+    model
+}
+
+#[test]
+fn what_must_hold_may_say_what_may_not() {
+    let complements = |task: Option<&Task>, model: &ActionModel| {
+        let (domain, _) = written(model, task, Level::Strips);
+        let names = domain.lines().map(str::trim).filter(|line| line.starts_with("(not-") && line.contains(" - "));
+        names.map(|line| line[5..].split(' ').next().unwrap_or_default().to_owned()).collect::<Vec<_>>()
+    };
+    let mut task = task();
+    task.negative_goal.clear();
+    task.init.atoms = ["empty(bob)", "at(saw_1,Home)", "at(saw_2,Home)"].map(ground).into();
+    let model = with_a_hand();
+    assert_eq!(complements(Some(&task), &model), Vec::<String>::new());
+    // Whether it is dark, nothing else tells.
+    let (domain, problem) = written(&model, Some(&task), Level::Strips);
+    assert!(domain.contains("(not-dark)") && domain.contains("; what may not hold is left out"), "{domain}");
+    assert!(problem.is_some_and(|problem| problem.contains("(not-dark)") && !problem.contains("(not-at")));
+    // Without a task nothing says what holds at first.
+    assert_eq!(complements(None, &model), ["at", "empty", "holds"]);
+    // Two things in the hand, one of them in two places: it is said of none of them.
+    task.init.atoms.extend(["holds(bob,saw_1)", "at(saw_2,shelf_1)"].map(ground));
+    assert_eq!(complements(Some(&task), &model), ["at", "empty", "holds"]);
+    task.init.atoms.retain(|atom| atom.predicate.as_str() != "holds");
+    // An empty hand still holds nothing; of what is in two places, one is left when it is taken.
+    assert_eq!(complements(Some(&task), &model), ["at"]);
+    // An action that breaks it.
+    let mut grown = model;
+    grown.actions[1].effects.retain(|effect| effect.literal.atom.predicate.as_str() != "holds");
+    task.init.atoms.remove(&ground("at(saw_2,shelf_1)"));
+    assert_eq!(complements(Some(&task), &grown), ["at", "empty", "holds"]);
+}
+
 #[test]
 fn equality_is_a_predicate_of_its_own_in_strips() {
     let (_, problem) = written(&moving(&["=(?0,?1)"], &[(0, 1)]), Some(&task()), Level::Strips);
@@ -374,7 +446,8 @@ fn names_that_are_in_use_are_not_taken_again() {
     let mut model = model();
     model.predicates.insert("Not-Is_ready".into(), 1);
     model.predicates.insert("differ".into(), 2);
-    let (domain, _) = written(&model, Some(&task()), Level::Strips);
+    let task = task_that_implies_nothing();
+    let (domain, _) = written(&model, Some(&task), Level::Strips);
     assert!(domain.contains("(not-is_ready-2 ?machine)") && domain.contains("(differ-2 ?machine ?station_2)"));
 }
 
@@ -396,7 +469,8 @@ fn too_many_facts_are_refused_before_they_are_written() {
     model.actions[0].parameters = parameters(&[("a", "agent"), ("m", "machine"), ("s", "station"), ("t", "station")]);
     model.actions[0].preconditions.push(literal("not wide(?1,?2,?3)"));
     model.predicates.insert("wide".into(), 3);
-    let mut task = task();
+    let mut task = task_that_implies_nothing();
+    task.init.atoms.insert(ground("wide(saw_1,shelf_1,Home)"));
     let saw = model.hierarchy.id("Saw").expect("a type");
     task.init.objects.extend((0..200).map(|i| (Symbol::from(format!("s{i}")), saw)));
     let error = exported(&model, Some(&task), Level::Strips).expect_err("too many");

@@ -33,6 +33,7 @@ mod restrict;
 mod restricted;
 mod scope;
 mod search;
+mod shuffle;
 mod strategy;
 mod symmetry;
 

@@ -70,6 +70,12 @@ impl<T: Copy> Lists<T> {
         &self.items[self.range(list)]
     }
 
+    /// One list, to be brought into another order.
+    pub(crate) fn get_mut(&mut self, list: usize) -> &mut [T] {
+        let range = self.range(list);
+        &mut self.items[range]
+    }
+
     /// Every list.
     pub(crate) fn iter(&self) -> impl Iterator<Item = &[T]> + Clone {
         (0..self.len()).map(|list| self.get(list))

@@ -7,12 +7,13 @@ use std::sync::Arc;
 use typelift_model::Budget;
 
 use crate::ground::GroundTask;
-use crate::heuristic::{Blind, CostMeasure, Ff, Heuristic, LandmarkCount, LmCut, OrderedLandmarks};
+use crate::heuristic::{Blind, CostMeasure, Ff, Heuristic, LandmarkCount, LmCut, OrderedLandmarks, Undominated};
 use crate::landmark::{LandmarkGraph, sequences};
 use crate::poll::Poll;
 use crate::reach::Cut;
 use crate::relaxation::{Negatives, Relaxation};
-use crate::search::{AStar, Lazy, Priority, Search, Space};
+use crate::search::{AStar, Attempts, Interleaved, Lazy, Preference, Priority, Search, Space};
+use crate::shuffle::Shuffler;
 
 /// A way to search for plans.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash)]
@@ -40,6 +41,9 @@ pub(crate) enum Stage {
     Weighted(u32),
 }
 
+/// With more goals than this ordered landmarks are left out.
+const MOST_GOALS_IN_ORDER: usize = 50;
+
 /// The weights with which cheaper plans are looked for, in turn.
 const WEIGHTS: [u32; 4] = [5, 3, 2, 1];
 
@@ -48,23 +52,15 @@ impl Stage {
     pub(crate) fn next(self) -> Self {
         match self {
             Self::First => Self::Weighted(WEIGHTS[0]),
-            Self::Weighted(weight) => {
-                Self::Weighted(WEIGHTS.into_iter().find(|&next| next < weight).unwrap_or(weight))
-            }
+            Self::Weighted(weight) => Self::Weighted(WEIGHTS.into_iter().find(|&next| next < weight).unwrap_or(weight)),
         }
     }
 }
 
 impl Strategy {
     /// Every strategy.
-    pub const ALL: [Self; 6] = [
-        Self::OrderedLandmarks,
-        Self::Lama,
-        Self::LazyFf,
-        Self::LazyLandmarks,
-        Self::AStarLmCut,
-        Self::AStarBlind,
-    ];
+    pub const ALL: [Self; 6] =
+        [Self::OrderedLandmarks, Self::Lama, Self::LazyFf, Self::LazyLandmarks, Self::AStarLmCut, Self::AStarBlind];
 
     /// Its name on a command line.
     pub fn name(self) -> &'static str {
@@ -99,32 +95,90 @@ impl Strategy {
     ) -> Result<Box<dyn Search>, Cut> {
         let task = &space.task;
         let relaxation = || Arc::new(Relaxation::new(task, Negatives::Propositions));
-        let (priority, measure) = match stage {
-            Stage::First => (Priority::Greedy, CostMeasure::Steps),
-            Stage::Weighted(weight) => (Priority::Weighted(weight), CostMeasure::PlusOne),
-        };
-        let lazy = |heuristics: Vec<Box<dyn Heuristic>>, prefers: bool| -> Box<dyn Search> {
-            Box::new(Lazy::new(space, priority, measure, heuristics, prefers))
-        };
-        let landmarks = |relaxation: &Relaxation| -> Result<Box<dyn Heuristic>, Cut> {
-            let graph = LandmarkGraph::new(ground, task, relaxation, &mut Poll::new(budget))?;
-            Ok(Box::new(LandmarkCount::new(graph, task, relaxation)))
-        };
         Ok(match self {
             Self::OrderedLandmarks => {
                 let heuristic = OrderedLandmarks::new(sequences(ground, task, budget)?);
                 Box::new(AStar::new(space, Box::new(heuristic), false, plans))
             }
             Self::Lama => {
-                let relaxation = relaxation();
-                let landmarks = landmarks(&relaxation)?;
-                lazy(vec![Box::new(Ff::new(task, relaxation, measure)), landmarks], true)
+                let parts = Parts::new(stage, ground, space, budget)?;
+                match stage {
+                    Stage::First => {
+                        // What lists many goals is not what ordered landmarks are for.
+                        let few = (task.goal.len() <= MOST_GOALS_IN_ORDER)
+                            .then(|| Self::OrderedLandmarks.search(stage, ground, space, 1, budget));
+                        let lasting = [Preference::Helpful, Preference::Preferred]
+                            .map(|preference| Box::new(parts.lama(space, preference)) as Box<dyn Search>);
+                        let lasting = few.transpose()?.into_iter().chain(lasting).collect();
+                        Box::new(Interleaved::new(lasting, Box::new(parts)))
+                    }
+                    Stage::Weighted(_) => Box::new(parts.lama(space, Preference::Helpful)),
+                }
             }
-            Self::LazyFf => lazy(vec![Box::new(Ff::new(task, relaxation(), measure))], true),
-            Self::LazyLandmarks => lazy(vec![landmarks(&relaxation())?], false),
+            Self::LazyFf => {
+                let parts = Parts::new(stage, ground, space, budget)?;
+                Box::new(parts.lazy(space, vec![Box::new(parts.ff())], Preference::Preferred))
+            }
+            Self::LazyLandmarks => {
+                let parts = Parts::new(stage, ground, space, budget)?;
+                Box::new(parts.lazy(space, vec![Box::new(parts.landmark_count(space))], Preference::None))
+            }
             Self::AStarLmCut => Box::new(AStar::new(space, Box::new(LmCut::new(task, relaxation())), true, plans)),
             Self::AStarBlind => Box::new(AStar::new(space, Box::new(Blind::new(task)), true, plans)),
         })
+    }
+}
+
+/// What lazy searches of one stage share.
+#[derive(Debug)]
+struct Parts {
+    priority: Priority,
+    measure: CostMeasure,
+    relaxation: Arc<Relaxation>,
+    undominated: Arc<Undominated>,
+    costs: Vec<u32>,
+    landmarks: Arc<LandmarkGraph>,
+}
+
+impl Parts {
+    fn new(stage: Stage, ground: &GroundTask, space: &Space, budget: &Budget) -> Result<Self, Cut> {
+        let (priority, measure) = match stage {
+            Stage::First => (Priority::Greedy, CostMeasure::Steps),
+            Stage::Weighted(weight) => (Priority::Weighted(weight), CostMeasure::PlusOne),
+        };
+        let relaxation = Arc::new(Relaxation::new(&space.task, Negatives::Propositions));
+        let costs = measure.of(&space.task);
+        let undominated = Arc::new(Undominated::of(&relaxation, &costs));
+        let landmarks = LandmarkGraph::new(ground, &space.task, &relaxation, &mut Poll::new(budget))?;
+        Ok(Self { priority, measure, relaxation, undominated, costs, landmarks: Arc::new(landmarks) })
+    }
+
+    fn ff(&self) -> Ff {
+        Ff::new(Arc::clone(&self.relaxation), Arc::clone(&self.undominated), self.costs.clone())
+    }
+
+    fn landmark_count(&self, space: &Space) -> LandmarkCount {
+        LandmarkCount::new(Arc::clone(&self.landmarks), &space.task, &self.relaxation)
+    }
+
+    fn lazy(&self, space: &Space, heuristics: Vec<Box<dyn Heuristic>>, preference: Preference) -> Lazy {
+        Lazy::new(space, self.priority, self.measure, heuristics, preference)
+    }
+
+    fn lama(&self, space: &Space, preference: Preference) -> Lazy {
+        self.lazy(space, vec![Box::new(self.ff()), Box::new(self.landmark_count(space))], preference)
+    }
+}
+
+impl Attempts for Parts {
+    fn begin(&self, space: &Space, number: u64) -> Box<dyn Search> {
+        let mut shuffler = Shuffler::new(number);
+        let ff = Box::new(self.ff().shuffled(&mut shuffler));
+        let preference = if number.is_multiple_of(2) { Preference::Helpful } else { Preference::Preferred };
+        // Every third without landmarks.
+        let heuristics: Vec<Box<dyn Heuristic>> =
+            if number.is_multiple_of(3) { vec![ff] } else { vec![ff, Box::new(self.landmark_count(space))] };
+        Box::new(self.lazy(space, heuristics, preference).shuffled(shuffler))
     }
 }
 

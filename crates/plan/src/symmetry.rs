@@ -159,9 +159,10 @@ impl Symmetry {
 
 /// What an action depends on and changes.
 fn facts(op: &Op) -> impl Iterator<Item = FactId> {
-    let conditional = op.conditional.iter().flat_map(|effect| {
-        effect.positive.iter().chain(&effect.negative).copied().chain([effect.fact])
-    });
+    let conditional = op
+        .conditional
+        .iter()
+        .flat_map(|effect| effect.positive.iter().chain(&effect.negative).copied().chain([effect.fact]));
     [&op.preconditions, &op.negative, &op.adds, &op.deletes].into_iter().flatten().copied().chain(conditional)
 }
 
@@ -174,7 +175,9 @@ fn classes(model: &ActionModel, task: &Task) -> Vec<Vec<Symbol>> {
     let goals = task.goal.iter().map(|atom| (1, atom, 0));
     let negative = task.negative_goal.iter().map(|atom| (2, atom, 0));
     let values = task.values.iter().map(|(atom, value)| (3, atom, *value));
-    for (kind, atom, value) in task.init.atoms.iter().map(|atom| (0, atom, 0)).chain(goals).chain(negative).chain(values) {
+    for (kind, atom, value) in
+        task.init.atoms.iter().map(|atom| (0, atom, 0)).chain(goals).chain(negative).chain(values)
+    {
         let objects: BTreeSet<&Symbol> = atom.args.iter().collect();
         for object in objects {
             let others = atom.args.iter().map(|arg| (arg != object).then_some(arg)).collect();

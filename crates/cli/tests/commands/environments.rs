@@ -63,5 +63,9 @@ fn environments_that_fail() {
         transcript.add(options, &ended);
     }
     assert_eq!(folder.read("events.jsonl"), "from an earlier run\n");
+    // Whoever reads JSON reads an object for this task as well.
+    let ended = folder.run("run kitchen.json K/tasks/T1.1.json -q --json --env 'sh dies.sh'");
+    let begins = r#"{"task":"T1.1","solved":false,"ending":"broken_off","why":""#;
+    assert!(ended.code == 35 && ended.out.starts_with(begins), "{ended}");
     insta::assert_snapshot!(transcript.0);
 }

@@ -45,6 +45,17 @@ fn its_plan_comes_back_and_is_used() {
 }
 
 #[test]
+fn a_program_that_is_a_link_is_started_as_that() {
+    let folder = planners();
+    let own = folder.read("own.plan");
+    // As the interpreter of a virtual environment, it is another program by its own name.
+    folder.write("target.sh", format!("case $0 in */link.sh) cat > $3 <<END\n{own}END\nesac\n"));
+    std::os::unix::fs::symlink("target.sh", folder.path("link.sh")).expect("a link");
+    folder.run(&command("link", "")).succeeds();
+    folder.refuses(38, &command("target", ""));
+}
+
+#[test]
 fn each_way_to_fail_is_told_apart() {
     let folder = planners();
     let mut all = String::new();

@@ -51,7 +51,7 @@ pub fn violins(panels: &[Violins], horizontal: &str, vertical: &str) -> String {
         draw(&mut svg, panel, corner, (horizontal, vertical), index % 4);
     }
     let note = format!("shade: density (Gaussian kernel, bandwidth {BANDWIDTH}),");
-    let lines = [note.as_str(), "each as wide at its widest; bar: median; n: subsets"];
+    let lines = [note.as_str(), "equally wide at the widest; bar: median; n: subsets"];
     for (y, line) in [6.0, 20.0].into_iter().zip(lines) {
         svg.text("small mute", (10.0, PANEL.1 * rows as f64 + y), Anchor::Start, line);
     }

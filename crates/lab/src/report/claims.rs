@@ -155,11 +155,8 @@ fn of_sets(id: &str, table: &Table) -> Option<Finding> {
                 Some((table.mean("T5", variant, |c| c.seconds_mean)?, table.mean("T5", variant, |c| c.proposals)?))
             };
             let ((g, g_p), (ii, ii_p)) = (of(Generalized)?, of(IndividualImagined)?);
-            let ours = format!(
-                "generalized {:.1} ms, {g_p} proposals; individual+imagined {:.1} ms, {ii_p}",
-                g * 1e3,
-                ii * 1e3
-            );
+            let ours =
+                format!("generalized {:.1} ms, #p {g_p}; individual+imagined {:.1} ms, #p {ii_p}", g * 1e3, ii * 1e3);
             Some(Finding { ours, held: g < ii && g_p < ii_p })
         }
         _ => None,

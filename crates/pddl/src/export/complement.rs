@@ -76,16 +76,18 @@ impl Complements {
         })
     }
 
-    /// Declares them, and replaces what they stand for.
-    pub(super) fn in_model(&self, model: &mut ActionModel) -> Result<(), ExportError> {
+    /// Declares them, and replaces what they stand for. Of the preconditions only those are written that are in
+    /// `lean`; all of them tell what the effects come to.
+    pub(super) fn in_model(&self, model: &mut ActionModel, lean: &ActionModel) -> Result<(), ExportError> {
         for complement in self.of.values() {
             let arity = complement.uses.first().map_or(0, Vec::len);
             model.predicates.insert(complement.name.clone(), arity);
         }
         let hierarchy = &model.hierarchy;
-        for action in &mut model.actions {
+        for (action, lean) in model.actions.iter_mut().zip(&lean.actions) {
             let opposites = self.opposite_effects(action, hierarchy)?;
             action.effects.extend(opposites);
+            action.preconditions.clone_from(&lean.preconditions);
             for literal in action.preconditions.iter_mut().filter(|literal| is_replaced(literal)) {
                 if let Some(complement) = self.of.get(&(literal.atom.predicate.clone(), literal.positive)) {
                     *literal = Literal::positive(Atom::new(complement.name.clone(), literal.atom.args.clone()));

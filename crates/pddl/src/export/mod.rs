@@ -10,6 +10,7 @@ mod argument_types;
 mod complement;
 mod derived;
 mod domain;
+mod exclusive;
 mod names;
 mod note;
 mod problem;

@@ -1,15 +1,18 @@
 //! The rewrite of a model and a task into STRIPS: positive preconditions only, and nothing that must differ.
 //!
-//! What may not hold becomes a predicate of its own that holds where the other does not (see [`complement`]). Costs
+//! What may not hold becomes a predicate of its own that holds where the other does not (see [`complement`]), unless
+//! something else that must hold implies it (see [`exclusive`]): heuristics count what is written. Costs
 //! of a fixed amount are left out, which changes no plan but which of them is best. What would take more than that is
 //! refused by name: learned models have none of it.
 //!
 //! [`complement`]: super::complement
+//! [`exclusive`]: super::exclusive
 
 use typelift_model::{ActionModel, Cost, LiftedAtom, Literal, Symbol, Task, Term};
 
 use super::ExportError;
 use super::complement::Complements;
+use super::exclusive::without_implied;
 
 /// A model and a task in STRIPS.
 pub(super) struct Compiled {
@@ -30,9 +33,13 @@ pub(super) fn compile(model: &ActionModel, task: Option<&Task>) -> Result<Compil
             action.cost = Cost::UNIT;
         }
     }
-    let complements = Complements::of(&model, task);
+    let lean = task.map_or_else(|| model.clone(), |task| without_implied(&model, task));
+    if lean.actions != model.actions {
+        notes.push("what may not hold is left out where, in this problem, what must hold implies it".to_owned());
+    }
+    let complements = Complements::of(&lean, task);
     let task = task.map(|task| complements.in_task(&model, task)).transpose()?;
-    complements.in_model(&mut model)?;
+    complements.in_model(&mut model, &lean)?;
     notes.extend(complements.notes());
     Ok(Compiled { model, task, notes })
 }

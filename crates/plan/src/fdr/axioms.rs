@@ -125,8 +125,8 @@ impl Axioms {
             let mut missing: Vec<Option<usize>> = Vec::with_capacity(stratum.axioms.len());
             let mut new: Vec<u32> = Vec::new();
             for axiom in &stratum.axioms {
-                let decided = axiom.positive.iter().all(|a| a.holds(values))
-                    && !axiom.negative.iter().any(|a| a.holds(values));
+                let decided =
+                    axiom.positive.iter().all(|a| a.holds(values)) && !axiom.negative.iter().any(|a| a.holds(values));
                 missing.push(decided.then_some(axiom.own.len()));
                 if decided && axiom.own.is_empty() {
                     new.push(axiom.head);

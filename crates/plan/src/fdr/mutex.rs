@@ -35,7 +35,8 @@ pub(crate) struct MutexGroups {
 impl MutexGroups {
     pub(crate) fn of(task: &GroundTask, changing: &[bool], poll: &mut Poll<'_>) -> Result<Self, Cut> {
         let groups = Finder::new(task, changing, poll)?.run(poll)?;
-        let pairs = groups.iter().zip(0..).flat_map(|(group, g)| group.iter().map(move |fact| (fact.index() as u32, g)));
+        let pairs =
+            groups.iter().zip(0..).flat_map(|(group, g)| group.iter().map(move |fact| (fact.index() as u32, g)));
         let of_fact = Lists::from_pairs(task.fact_count(), pairs);
         Ok(Self { groups, of_fact })
     }
@@ -131,8 +132,7 @@ impl<'a> Finder<'a> {
             by_predicate.entry(task.facts().predicate(fact)).or_default().push(fact);
         }
         let initially = task.init().iter().copied().filter(|fact| changing[fact.index()]).collect();
-        let mut this =
-            Self { task, productions: Vec::new(), consumed: Lists::default(), by_predicate, initially };
+        let mut this = Self { task, productions: Vec::new(), consumed: Lists::default(), by_predicate, initially };
         for ((_, op), number) in task.ops().zip(0..) {
             poll.check(1 + op.preconditions.len() + op.adds.len() + op.conditional.len())?;
             this.add_productions(op, number);
@@ -154,7 +154,8 @@ impl<'a> Finder<'a> {
         for effect in op.conditional.iter().filter(|e| e.adds && !needs(&e.fact) && !e.positive.contains(&e.fact)) {
             let known = |fact: &FactId| needs(fact) || effect.positive.contains(fact);
             // What is deleted whenever this effect happens, and was there.
-            let deleted = op.conditional.iter().filter(|e| !e.adds && e.negative.iter().all(|f| effect.negative.contains(f)));
+            let deleted =
+                op.conditional.iter().filter(|e| !e.adds && e.negative.iter().all(|f| effect.negative.contains(f)));
             let with_it = deleted.filter(|e| known(&e.fact) && !added_somehow(&e.fact) && e.positive.iter().all(known));
             let anyway = op.deletes.iter().filter(|fact| known(fact) && !added_somehow(fact));
             self.productions.push(Production { op: number, fact: effect.fact });

@@ -36,9 +36,7 @@ impl SuccessorGenerator {
         let mut this = Self { nodes: Vec::new(), root: None };
         let preconditions = &task.actions.preconditions;
         let mut actions: Vec<ActionIndex> = (0..task.action_count() as u32).collect();
-        actions.sort_by(|&a, &b| {
-            preconditions.get(a as usize).cmp(preconditions.get(b as usize)).then(a.cmp(&b))
-        });
+        actions.sort_by(|&a, &b| preconditions.get(a as usize).cmp(preconditions.get(b as usize)).then(a.cmp(&b)));
         this.root = this.build(task, &actions, 0);
         this
     }

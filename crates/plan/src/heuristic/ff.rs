@@ -9,9 +9,11 @@ use std::sync::Arc;
 
 use super::bucket_queue::BucketQueue;
 use super::undominated::Undominated;
-use super::{CostMeasure, Heuristic, Reached};
+use super::{Heuristic, Reached};
 use crate::fdr::{ActionIndex, Fdr};
+use crate::lists::Lists;
 use crate::relaxation::{Prop, Relaxation, RelaxedIndex};
+use crate::shuffle::Shuffler;
 
 const UNREACHED: u32 = u32::MAX;
 const NOBODY: RelaxedIndex = RelaxedIndex::MAX;
@@ -29,7 +31,9 @@ struct Progress {
 #[derive(Debug)]
 pub(crate) struct Ff {
     relaxation: Arc<Relaxation>,
-    relaxed: Undominated,
+    relaxed: Arc<Undominated>,
+    /// The relaxed actions that need each proposition, in the order in which they are looked at.
+    needed_by: Lists<RelaxedIndex>,
     /// The cost of each action.
     action_costs: Vec<u32>,
     start: Vec<Progress>,
@@ -45,12 +49,12 @@ pub(crate) struct Ff {
     now: u32,
     stack: Vec<Prop>,
     preferred: Vec<ActionIndex>,
+    helpful: Vec<ActionIndex>,
 }
 
 impl Ff {
-    pub(crate) fn new(task: &Fdr, relaxation: Arc<Relaxation>, measure: CostMeasure) -> Self {
-        let action_costs = measure.of(task);
-        let relaxed = Undominated::of(&relaxation, &action_costs);
+    /// Relaxed plans of what is left of the relaxation's actions, with these costs of the actions.
+    pub(crate) fn new(relaxation: Arc<Relaxation>, relaxed: Arc<Undominated>, action_costs: Vec<u32>) -> Self {
         let missing = relaxed.preconditions.iter().map(|list| list.len() as u32);
         let start: Vec<Progress> =
             missing.zip(&relaxed.costs).map(|(missing, &cost)| Progress { missing, cost }).collect();
@@ -62,6 +66,7 @@ impl Ff {
             progress: start.clone(),
             without_preconditions: (0..start.len() as u32).filter(|&i| start[i as usize].missing == 0).collect(),
             start,
+            needed_by: relaxed.needed_by.clone(),
             prop_costs: vec![UNREACHED; relaxation.len()],
             supporters: vec![NOBODY; relaxation.len()],
             is_goal,
@@ -71,10 +76,19 @@ impl Ff {
             now: 0,
             stack: Vec::new(),
             preferred: Vec::new(),
+            helpful: Vec::new(),
             action_costs,
             relaxed,
             relaxation,
         }
+    }
+
+    /// The same, with supporters chosen otherwise among the best.
+    pub(crate) fn shuffled(mut self, shuffler: &mut Shuffler) -> Self {
+        for prop in 0..self.needed_by.len() {
+            shuffler.shuffle(self.needed_by.get_mut(prop));
+        }
+        self
     }
 
     fn enqueue(&mut self, prop: Prop, cost: u32, supporter: RelaxedIndex) {
@@ -113,8 +127,8 @@ impl Ff {
                     return true;
                 }
             }
-            for i in self.relaxed.needed_by.range(prop as usize) {
-                let relaxed = self.relaxed.needed_by.item(i);
+            for i in self.needed_by.range(prop as usize) {
+                let relaxed = self.needed_by.item(i);
                 let progress = &mut self.progress[relaxed as usize];
                 progress.cost = progress.cost.saturating_add(cost);
                 progress.missing -= 1;
@@ -152,6 +166,7 @@ impl Ff {
             let Some(action) = self.relaxed.action[supporter] else { continue };
             if self.progress[supporter].cost == self.relaxed.costs[supporter] {
                 self.preferred.push(action);
+                self.add_helpful(prop);
             }
             if std::mem::replace(&mut self.seen_actions[action as usize], self.now) != self.now {
                 total = total.saturating_add(self.action_costs[action as usize]).min(UNREACHED - 1);
@@ -161,13 +176,30 @@ impl Ff {
     }
 }
 
+impl Ff {
+    /// The actions that achieve a proposition at once.
+    fn add_helpful(&mut self, prop: Prop) {
+        for &relaxed in self.relaxation.achievers.get(prop as usize) {
+            let mut preconditions = self.relaxation.preconditions.get(relaxed as usize).iter();
+            if preconditions.all(|&needed| self.prop_costs[needed as usize] == 0) {
+                self.helpful.extend(self.relaxation.action[relaxed as usize]);
+            }
+        }
+    }
+}
+
 impl Heuristic for Ff {
     fn estimate(&mut self, task: &Fdr, reached: Reached<'_>, _memory: &mut [u32]) -> Option<u32> {
         self.preferred.clear();
+        self.helpful.clear();
         self.explore(task, reached).then(|| self.relaxed_plan())
     }
 
     fn preferred(&self) -> &[ActionIndex] {
         &self.preferred
+    }
+
+    fn helpful(&self) -> &[ActionIndex] {
+        &self.helpful
     }
 }

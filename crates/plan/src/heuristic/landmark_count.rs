@@ -8,6 +8,8 @@
 //! admissible; it never says that a state is a dead end. Conditional effects and derived predicates count as far as the
 //! graph knows them.
 
+use std::sync::Arc;
+
 use super::{Heuristic, Reached};
 use crate::fdr::{Assignment, Fdr, Values};
 use crate::landmark::LandmarkGraph;
@@ -16,16 +18,17 @@ use crate::relaxation::Relaxation;
 /// Counts landmarks.
 #[derive(Debug)]
 pub(crate) struct LandmarkCount {
-    graph: LandmarkGraph,
+    graph: Arc<LandmarkGraph>,
     /// What each landmark asks for, one of them: facts, and whether they must hold.
     literals: Vec<Vec<(Assignment, bool)>>,
 }
 
 impl LandmarkCount {
-    pub(crate) fn new(graph: LandmarkGraph, task: &Fdr, relaxation: &Relaxation) -> Self {
-        let literals = graph.landmarks.iter().map(|landmark| {
-            landmark.props.iter().filter_map(|&prop| relaxation.literal(task, prop)).collect()
-        });
+    pub(crate) fn new(graph: Arc<LandmarkGraph>, task: &Fdr, relaxation: &Relaxation) -> Self {
+        let literals = graph
+            .landmarks
+            .iter()
+            .map(|landmark| landmark.props.iter().filter_map(|&prop| relaxation.literal(task, prop)).collect());
         Self { literals: literals.collect(), graph }
     }
 
@@ -62,8 +65,8 @@ impl Heuristic for LandmarkCount {
                 None => !self.holds(values, index),
                 Some(by) => {
                     let (was_past, was_future) = by.memory.split_at(self.words());
-                    let in_future = is_set(was_future, index)
-                        && !(self.holds(values, index) && !self.holds(by.values, index));
+                    let in_future =
+                        is_set(was_future, index) && (!self.holds(values, index) || self.holds(by.values, index));
                     if is_set(was_past, index) {
                         set(past, index);
                     }

@@ -18,6 +18,7 @@ pub(crate) use ff::Ff;
 pub(crate) use landmark_count::LandmarkCount;
 pub(crate) use lm_cut::LmCut;
 pub(crate) use ordered_landmarks::OrderedLandmarks;
+pub(crate) use undominated::Undominated;
 
 use crate::fdr::{ActionIndex, Fdr, Values};
 
@@ -51,8 +52,13 @@ pub(crate) trait Heuristic: Debug + Send {
     /// Estimates a state, and fills its memory; `None` if no plan leads from it to the goal.
     fn estimate(&mut self, task: &Fdr, reached: Reached<'_>, memory: &mut [u32]) -> Option<u32>;
 
-    /// Actions that look helpful in the state estimated last. Some may not be applicable.
+    /// The actions with which what the estimate of the last state rests on begins. Some may not be applicable.
     fn preferred(&self) -> &[ActionIndex] {
+        &[]
+    }
+
+    /// The actions that do something of what these do. Some may not be applicable.
+    fn helpful(&self) -> &[ActionIndex] {
         &[]
     }
 }

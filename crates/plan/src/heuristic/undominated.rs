@@ -51,7 +51,10 @@ impl Undominated {
             let set = set_of[relaxed];
             let is_best = |prop: &&Prop| {
                 best.get(&(set, **prop)) == Some(&own)
-                    && !subsets.get(set as usize).iter().any(|&subset| best.get(&(subset, **prop)).is_some_and(|way| way.0 <= own.0))
+                    && !subsets
+                        .get(set as usize)
+                        .iter()
+                        .any(|&subset| best.get(&(subset, **prop)).is_some_and(|way| way.0 <= own.0))
             };
             let left: Vec<Prop> = adds.iter().filter(is_best).copied().collect();
             if left.is_empty() {

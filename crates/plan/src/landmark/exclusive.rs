@@ -42,4 +42,3 @@ pub(crate) fn exclusive_goals(task: &GroundTask, budget: &Budget) -> Result<Opti
     }
     Ok(None)
 }
-

@@ -48,23 +48,12 @@ impl LandmarkGraph {
     ///
     /// # Errors
     /// [`Cut`] if the budget ends it.
-    pub(crate) fn new(
-        task: &GroundTask,
-        fdr: &Fdr,
-        relaxation: &Relaxation,
-        poll: &mut Poll<'_>,
-    ) -> Result<Self, Cut> {
+    pub(crate) fn new(task: &GroundTask, fdr: &Fdr, relaxation: &Relaxation, poll: &mut Poll<'_>) -> Result<Self, Cut> {
         let sets = LandmarkSets::of(fdr, relaxation, poll)?;
         let mut builder = Builder { task, fdr, sets, landmarks: Vec::new(), by_prop: HashMap::default() };
         builder.collect(poll)?;
         builder.natural(poll)?;
         builder.reasonable(poll)?;
-        if std::env::var("LMDUMP").is_ok() {
-            for (i, l) in builder.landmarks.iter().enumerate() {
-                let name = |p: &Prop| if relaxation.is_fact(*p) { task.atom(fdr.fact(*p)).to_string() } else { format!("not? {p}") };
-                eprintln!("{i} {:?} goal={} pred={:?} gn-for={:?} after={:?}", l.props.iter().map(name).collect::<Vec<_>>(), l.is_goal, l.predecessors, l.needed_for, l.better_after);
-            }
-        }
         Ok(Self { landmarks: builder.landmarks })
     }
 }
@@ -93,7 +82,13 @@ impl Builder<'_> {
     }
 
     fn push(&mut self, props: Vec<Prop>) -> u32 {
-        self.landmarks.push(Landmark { props, is_goal: false, predecessors: Vec::new(), needed_for: Vec::new(), better_after: Vec::new() });
+        self.landmarks.push(Landmark {
+            props,
+            is_goal: false,
+            predecessors: Vec::new(),
+            needed_for: Vec::new(),
+            better_after: Vec::new(),
+        });
         self.landmarks.len() as u32 - 1
     }
 
@@ -247,8 +242,7 @@ impl Builder<'_> {
                 let reasonable = if self.landmarks[b as usize].is_goal {
                     *is_goal
                 } else {
-                    let interesting =
-                        interesting[b as usize].get_or_insert_with(|| self.needed_together_with(b));
+                    let interesting = interesting[b as usize].get_or_insert_with(|| self.needed_together_with(b));
                     poll.check(1)?;
                     interesting.contains(a as usize)
                 };
@@ -266,12 +260,7 @@ impl Builder<'_> {
     }
 
     /// The landmarks that are certainly not true when, or immediately before, a proposition becomes true.
-    fn spoiled_by_achieving(
-        &self,
-        prop: Prop,
-        needs: &[u32],
-        in_group: &HashMap<u32, Vec<u32>>,
-    ) -> BTreeSet<u32> {
+    fn spoiled_by_achieving(&self, prop: Prop, needs: &[u32], in_group: &HashMap<u32, Vec<u32>>) -> BTreeSet<u32> {
         let rivals = |prop: Prop| {
             let groups = self.groups(prop).iter().filter_map(|group| in_group.get(group));
             groups.flatten().copied().filter(move |&landmark| self.landmarks[landmark as usize].props[0] != prop)

@@ -7,6 +7,6 @@ mod sets;
 
 pub(crate) use exclusive::exclusive_goals;
 pub(crate) use graph::LandmarkGraph;
-pub use sequence::{LandmarkSequence, landmark_sequences};
 pub(crate) use sequence::sequences;
+pub use sequence::{LandmarkSequence, landmark_sequences};
 pub(crate) use sets::LandmarkSets;

@@ -200,4 +200,3 @@ impl Orders<'_> {
         Ok(sequence)
     }
 }
-

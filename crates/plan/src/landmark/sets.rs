@@ -140,7 +140,9 @@ impl<'a> LandmarkSets<'a> {
     pub(crate) fn first_achievers(&self, prop: Prop) -> impl Iterator<Item = RelaxedIndex> + '_ {
         self.achievers(prop).iter().copied().filter(move |&relaxed| {
             let preconditions = self.relaxation.preconditions.get(relaxed as usize);
-            preconditions.iter().all(|&needed| self.sets[needed as usize].is_some() && !self.is_before(prop, needed) && needed != prop)
+            preconditions
+                .iter()
+                .all(|&needed| self.sets[needed as usize].is_some() && !self.is_before(prop, needed) && needed != prop)
         })
     }
 

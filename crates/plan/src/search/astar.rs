@@ -14,6 +14,7 @@ use super::{Found, Outcome, Report, Search, Space};
 use crate::fdr::{ActionIndex, Registry, StateId};
 use crate::heuristic::{Heuristic, Reached, Step};
 use crate::poll::Poll;
+use crate::shuffle::spread;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct NodeId(u32);
@@ -230,12 +231,4 @@ impl Search for AStar {
         self.registry.unpack(self.closest.1?, &mut values);
         Some(values)
     }
-}
-
-/// A number with its bits spread (SplitMix64's finalizer), so that sums of different multisets differ.
-fn spread(number: u64) -> u64 {
-    let mut bits = number.wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    bits ^ (bits >> 31)
 }

@@ -12,6 +12,7 @@ use super::{Found, Outcome, Report, Search, Space};
 use crate::fdr::{ActionIndex, Registry, StateId};
 use crate::heuristic::{CostMeasure, Heuristic, Reached, Step};
 use crate::poll::Poll;
+use crate::shuffle::Shuffler;
 use crate::symmetry::Untouched;
 
 /// What comes first.
@@ -21,6 +22,17 @@ pub(crate) enum Priority {
     Greedy,
     /// The smallest g + w·h.
     Weighted(u32),
+}
+
+/// Which actions lead to states that are listed apart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Preference {
+    /// None.
+    None,
+    /// Those with which relaxed plans begin.
+    Preferred,
+    /// Those that do something of what these do.
+    Helpful,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -41,6 +53,7 @@ const ENTRY: u64 = 8;
 #[derive(Debug)]
 pub(crate) struct Lazy {
     priority: Priority,
+    preference: Preference,
     heuristics: Vec<Box<dyn Heuristic>>,
     /// Where each heuristic's memory begins, and how long all are.
     memory_starts: Vec<usize>,
@@ -56,6 +69,7 @@ pub(crate) struct Lazy {
     expansions: u64,
     evaluations: u64,
     reopened: u64,
+    improvements: u64,
     values: Vec<u32>,
     before: Vec<u32>,
     memory: Vec<u32>,
@@ -63,6 +77,8 @@ pub(crate) struct Lazy {
     untouched: Untouched,
     /// When each action was last preferred.
     preferred: Vec<u64>,
+    /// Brings successors into another order.
+    shuffler: Option<Shuffler>,
 }
 
 impl Lazy {
@@ -71,7 +87,7 @@ impl Lazy {
         priority: Priority,
         measure: CostMeasure,
         heuristics: Vec<Box<dyn Heuristic>>,
-        prefers: bool,
+        preference: Preference,
     ) -> Self {
         let mut memory_len = 0;
         let mut memory_starts = Vec::with_capacity(heuristics.len());
@@ -82,26 +98,34 @@ impl Lazy {
         let variables = space.task.domains.len();
         Self {
             priority,
+            preference,
             memory_starts,
             memory_len,
             costs: measure.of(&space.task),
             registry: Registry::new(&space.task.domains),
             nodes: Vec::new(),
             memories: Vec::new(),
-            open: Alternation::new(heuristics.len(), prefers),
+            open: Alternation::new(heuristics.len(), preference != Preference::None),
             best: vec![None; heuristics.len()],
             closest: (0, None),
             expansions: 0,
             evaluations: 0,
             reopened: 0,
+            improvements: 0,
             values: vec![0; variables],
             before: vec![0; variables],
             memory: vec![0; memory_len],
             applicable: Vec::new(),
             untouched: Untouched::default(),
             preferred: vec![0; space.task.action_count()],
+            shuffler: None,
             heuristics,
         }
+    }
+
+    /// The same, with successors in another order.
+    pub(crate) fn shuffled(self, shuffler: Shuffler) -> Self {
+        Self { shuffler: Some(shuffler), ..self }
     }
 
     fn bytes(&self) -> u64 {
@@ -138,7 +162,12 @@ impl Lazy {
             });
             let reached = Reached { values: &self.values, by };
             let Some(h) = heuristic.estimate(&space.task, reached, &mut self.memory[own]) else { return false };
-            for &action in heuristic.preferred() {
+            let preferred = match self.preference {
+                Preference::None => &[],
+                Preference::Preferred => heuristic.preferred(),
+                Preference::Helpful => heuristic.helpful(),
+            };
+            for &action in preferred {
                 self.preferred[action as usize] = self.evaluations;
             }
             if self.best[i].is_none_or(|best| h < best) {
@@ -148,6 +177,7 @@ impl Lazy {
             keys.push(h);
         }
         if progress {
+            self.improvements += 1;
             self.open.boost();
         }
         true
@@ -169,9 +199,13 @@ impl Lazy {
         }
         space.successors.applicable(&space.task, &self.values, &mut self.applicable);
         self.keep_first(space);
+        if let Some(shuffler) = &mut self.shuffler {
+            shuffler.shuffle(&mut self.applicable);
+        }
         let mut priorities = [0_u64; 4];
         for &action in &self.applicable {
-            if cost_bound.is_some_and(|bound| node.cost + u64::from(space.task.actions.costs[action as usize]) >= bound) {
+            if cost_bound.is_some_and(|bound| node.cost + u64::from(space.task.actions.costs[action as usize]) >= bound)
+            {
                 continue;
             }
             let g = node.g + u64::from(self.costs[action as usize]);
@@ -196,10 +230,11 @@ impl Lazy {
         let (preferred, now) = (&mut self.preferred, self.evaluations);
         self.applicable.retain(|&action| {
             let keep = space.symmetry.takes_first(action, &mut self.untouched);
-            if !keep && preferred[action as usize] == now {
-                if let Some(first) = space.symmetry.first_like(action, &mut self.untouched) {
-                    preferred[first as usize] = now;
-                }
+            if !keep
+                && preferred[action as usize] == now
+                && let Some(first) = space.symmetry.first_like(action, &mut self.untouched)
+            {
+                preferred[first as usize] = now;
             }
             keep
         });
@@ -284,6 +319,10 @@ impl Search for Lazy {
             bytes: self.bytes(),
             ..Report::default()
         }
+    }
+
+    fn improvements(&self) -> u64 {
+        self.improvements
     }
 
     fn closest(&self) -> Option<Vec<u32>> {

@@ -1,13 +1,15 @@
 //! Searches. Each can be continued.
 
 mod astar;
+mod interleaved;
 mod lazy;
 mod open_list;
 
 use std::fmt::Debug;
 
 pub(crate) use astar::AStar;
-pub(crate) use lazy::{Lazy, Priority};
+pub(crate) use interleaved::{Attempts, Interleaved};
+pub(crate) use lazy::{Lazy, Preference, Priority};
 
 use typelift_model::{Budget, Plan, Stop};
 
@@ -87,6 +89,11 @@ pub(crate) trait Search: Debug + Send {
 
     /// What was counted.
     fn report(&self) -> Report;
+
+    /// How often it came nearer to the goal than ever before, by an estimate.
+    fn improvements(&self) -> u64 {
+        0
+    }
 
     /// The state expanded so far in which most goal facts held.
     fn closest(&self) -> Option<Vec<u32>>;

@@ -1,6 +1,5 @@
 //! Open lists that alternate between heuristics (Röger and Helmert, *The more, the merrier*, ICAPS 2010), with lists of
 //! their own for what preferred actions lead to, which are boosted at progress (Richter and Helmert 2009).
-
 use std::collections::{BTreeMap, VecDeque};
 
 /// How many turns lists of preferred entries are given at progress.
@@ -26,11 +25,9 @@ pub(crate) struct Alternation<T> {
 impl<T: Copy> Alternation<T> {
     /// A list for each key, and one for the preferred entries if there are such.
     pub(crate) fn new(keys: usize, prefers: bool) -> Self {
+        let kinds = if prefers { &[false, true][..] } else { &[false] };
         let list = |key, preferred_only| List { key, preferred_only, turns: 0, buckets: BTreeMap::new() };
-        let lists = (0..keys).flat_map(|key| {
-            let preferred = prefers.then(|| list(key, true));
-            [list(key, false)].into_iter().chain(preferred)
-        });
+        let lists = (0..keys).flat_map(|key| kinds.iter().map(move |&preferred_only| list(key, preferred_only)));
         Self { lists: lists.collect(), len: 0 }
     }
 
