@@ -24,7 +24,7 @@ use crate::reach::{Cut, reach};
 use crate::symmetry::constants;
 
 /// Tasks with at most so many objects are planned with all of them.
-const FEW_OBJECTS: usize = 400;
+const FEW_OBJECTS: usize = 200;
 /// A level has at most one in so many of the objects.
 const SHARE: usize = 4;
 /// What is beside more than so many others leads nowhere.

@@ -3,7 +3,7 @@
 //! | series | what grows | what stays |
 //! |---|---|---|
 //! | storeroom | objects, 32 to 10,000 | the goal (three foods), one plate, one of each tool |
-//! | kitchens | objects, 32 to 1,000 | the goal; tools and plates grow with the rest |
+//! | kitchens | objects, 32 to 10,000 | the goal; tools and plates grow with the rest |
 //! | goals | goal foods, 1 to 20 | 96 objects |
 //! | transitions | transitions learned from, 100 to 1,000,000 | rooms of the paper's size |
 //!
@@ -85,8 +85,7 @@ impl Experiment for Growth<'_> {
 
     fn runs(&self) -> Vec<Point> {
         let objects: &[u64] = if self.quick { &[32, 64, 100] } else { &[32, 64, 100, 320, 1000, 3200, 10_000] };
-        // Several tools of a kind are hard: more sizes would only be cut.
-        let kitchens: &[u64] = if self.quick { &[32] } else { &[32, 64, 100, 320, 1000] };
+        let kitchens: &[u64] = if self.quick { &[32] } else { &[32, 64, 100, 320, 1000, 3200, 10_000] };
         let goals: &[u64] = if self.quick { &[1, 2, 3] } else { &[1, 2, 3, 4, 5, 6, 8, 10, 12, 14, 16, 18, 20] };
         let transitions: &[u64] = if self.quick {
             &[100, 200, 400]
@@ -143,7 +142,7 @@ mod tests {
     #[test]
     fn the_sizes() {
         let all = |quick| Growth { quick, allowance: ALLOWANCE, measure: &|_, _, _| Ok(None) }.runs();
-        assert_eq!((all(true).len(), all(false).len()), (10, 34));
+        assert_eq!((all(true).len(), all(false).len()), (10, 36));
         assert!(all(false).contains(&Point { series: Series::Transitions, size: 1_000_000 }));
     }
 }
