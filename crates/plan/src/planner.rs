@@ -7,7 +7,7 @@ use crate::explain::{Explanation, unreachable};
 use crate::ground::{GroundTask, TieOrder};
 use crate::level::Level;
 use crate::reach::Cut;
-use crate::scope::Scopes;
+use crate::scope::{FEW_OBJECTS, FEW_OBJECTS_LAZILY, Scopes};
 use crate::search::{Outcome, Report};
 use crate::strategy::Strategy;
 
@@ -67,8 +67,11 @@ impl Planner {
         options: &Options,
         budget: &Budget,
     ) -> Result<Self, Cut> {
-        let mut scopes =
-            if options.strategy.is_optimal() { Scopes::whole() } else { Scopes::of(model, task, restrictions) };
+        let mut scopes = match options.strategy {
+            strategy if strategy.is_optimal() => Scopes::whole(),
+            Strategy::OrderedLandmarks => Scopes::of(model, task, restrictions, FEW_OBJECTS),
+            _ => Scopes::of(model, task, restrictions, FEW_OBJECTS_LAZILY),
+        };
         let mut past = Report::default();
         let level = loop {
             let level = Level::new(model, &scopes.restrict(task), restrictions, options, budget)?;

@@ -23,8 +23,10 @@ use crate::Restrictions;
 use crate::reach::{Cut, reach};
 use crate::symmetry::constants;
 
-/// Tasks with at most so many objects are planned with all of them.
-const FEW_OBJECTS: usize = 200;
+/// Tasks with at most so many objects are planned with all of them: by the paper's search, which estimates every successor,
+/// and by others.
+pub(crate) const FEW_OBJECTS: usize = 200;
+pub(crate) const FEW_OBJECTS_LAZILY: usize = 1_000;
 /// A level has at most one in so many of the objects.
 const SHARE: usize = 4;
 /// What is beside more than so many others leads nowhere.
@@ -59,8 +61,8 @@ impl Scopes {
     }
 
     /// The levels of a task, standing at the first.
-    pub(crate) fn of(model: &ActionModel, task: &Task, restrictions: &Restrictions) -> Self {
-        if task.init.objects.len() <= FEW_OBJECTS || speaks_of_all(model) {
+    pub(crate) fn of(model: &ActionModel, task: &Task, restrictions: &Restrictions, few_objects: usize) -> Self {
+        if task.init.objects.len() <= few_objects || speaks_of_all(model) {
             return Self::whole();
         }
         let ids: HashMap<&Symbol, Object> = task.init.objects.keys().zip(0..).collect();
@@ -205,7 +207,7 @@ pub fn reaches_goals_with_fewer_objects(
     restrictions: &Restrictions,
     budget: &Budget,
 ) -> Result<bool, Cut> {
-    let mut scopes = Scopes::of(model, task, restrictions);
+    let mut scopes = Scopes::of(model, task, restrictions, FEW_OBJECTS);
     while !scopes.is_whole() {
         let task = scopes.restrict(task);
         let facts = reach(model, &task, restrictions, budget)?.facts;
