@@ -10,10 +10,10 @@ use typelift_model::Budget;
 use super::{Found, Outcome, Report, Search, Space};
 
 /// The expansions of the first turn.
-const FIRST_TURN: u64 = 500;
+const FIRST_TURN: u64 = 600;
 
 /// Of a search that estimates every successor, an expansion counts as so many of one that estimates what it expands.
-pub(crate) const EAGER: u64 = 4;
+pub(crate) const EAGER: u64 = 8;
 
 /// The expansions after which a search that begins anew does so for the first time.
 const FIRST_ATTEMPT: u64 = 500;
