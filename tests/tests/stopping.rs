@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use typelift::model::{Budget, Plan, Stop};
-use typelift::plan::{Cut, Options, Outcome, Planner, Restrictions};
+use typelift::plan::{Options, Outcome, Planner, Restrictions};
 use typelift_kitchen::{KitchenTask, tasks};
 use typelift_tests::{kitchen_model, planning_task};
 
@@ -30,7 +30,7 @@ fn plans(planner: &mut Planner, wanted: usize, budget: &Budget) -> (Vec<Plan>, u
     (plans, stops)
 }
 
-fn planner(task: &KitchenTask, wanted: usize, budget: &Budget) -> Result<Planner, Cut> {
+fn planner(task: &KitchenTask, wanted: usize, budget: &Budget) -> Result<Planner, Stop> {
     let model = kitchen_model(false);
     let asked = planning_task(&model, task, 0);
     Planner::new(&model, &asked, &Restrictions::default(), &Options { plans: wanted, ..Options::default() }, budget)
@@ -85,7 +85,7 @@ fn whatever_comes_before_the_search_can_be_stopped_at_every_question() {
     assert!(questions > 5, "{questions} questions: nothing was tested");
     for number in 1..=questions {
         let ended = planner(&task(), 1, &stopping(number).0).map(drop);
-        assert_eq!(ended, Err(Cut::Stopped(Stop::Time)), "question {number} of {questions}");
+        assert_eq!(ended, Err(Stop::Time), "question {number} of {questions}");
     }
 }
 

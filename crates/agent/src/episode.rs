@@ -7,7 +7,7 @@
 use std::sync::Arc;
 
 use typelift_model::{ActionModel, Budget, GroundAction, Plan, Provenance, State, Stop, Symbol, Task};
-use typelift_plan::{Ban, Cut, Exclusion, Outcome};
+use typelift_plan::{Ban, Exclusion, Outcome};
 
 use crate::account::{Account, Ending, Failure};
 use crate::event::{Event, Observer, PlanSummary};
@@ -183,7 +183,7 @@ impl Episode {
         }
         let mut proposal = match self.plan_with_last_resorts(observer) {
             Ok(proposal) => proposal,
-            Err(ProposeError::Cut(cut)) => return Ok(self.end(cut_ending(cut), observer)),
+            Err(ProposeError::Stopped(stop)) => return Ok(self.end(ending(stop), observer)),
             Err(error) => return Err(error),
         };
         // A plan that did not lead to the goal from this very state, though no step of it failed, is not begun again.
@@ -304,7 +304,7 @@ impl Episode {
             return self.propose(observer);
         }
         if let Some(stop) = self.budget.stopped() {
-            return Ok(self.end(cut_ending(Cut::Stopped(stop)), observer));
+            return Ok(self.end(ending(stop), observer));
         }
         self.phase = Phase::AwaitingResult;
         Ok(Command::Act(self.plan.steps[self.next_step].call.clone()))
@@ -437,10 +437,10 @@ impl Episode {
     }
 }
 
-fn cut_ending(cut: Cut) -> Ending {
-    match cut {
-        Cut::OutOfMemory => Ending::OutOfMemory,
-        Cut::Stopped(Stop::Time) => Ending::OutOfTime,
-        Cut::Stopped(Stop::Cancelled) => Ending::Stopped,
+fn ending(stop: Stop) -> Ending {
+    match stop {
+        Stop::Memory => Ending::OutOfMemory,
+        Stop::Time => Ending::OutOfTime,
+        Stop::Cancelled => Ending::Stopped,
     }
 }

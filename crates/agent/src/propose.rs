@@ -3,8 +3,8 @@
 use thiserror::Error;
 use typelift_check::{Invalid, check};
 use typelift_imagine::{Imagination, imagine};
-use typelift_model::{ActionModel, Budget, Plan, Task, strict};
-use typelift_plan::{Cut, Explanation, ExternalFailure, Outcome, Planner, Report, Restrictions};
+use typelift_model::{ActionModel, Budget, Plan, Stop, Task, strict};
+use typelift_plan::{Explanation, ExternalFailure, Outcome, Planner, Report, Restrictions};
 
 use crate::options::Options;
 
@@ -87,8 +87,8 @@ impl Proposal {
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum ProposeError {
     /// The budget ended grounding.
-    #[error(transparent)]
-    Cut(#[from] Cut),
+    #[error("{0} while grounding")]
+    Stopped(#[from] Stop),
     /// The planner's plan does not survive the check: a defect of the planner.
     #[error("the planner's plan is not valid: {error}")]
     Invalid {

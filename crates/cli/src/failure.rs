@@ -6,7 +6,7 @@ use std::io;
 use typelift::agent::{ProposeError, RunError};
 use typelift::model::{ModelFileError, NameCollision, Stop, Symbol, nearest, printable};
 use typelift::pddl::ExportError;
-use typelift::plan::{Cut, ExternalFailure};
+use typelift::plan::ExternalFailure;
 use typelift::world::{FileError, WorldError};
 
 use crate::exit::Exit;
@@ -81,9 +81,9 @@ impl From<ExportError> for Failure {
     }
 }
 
-impl From<Cut> for Failure {
-    fn from(cut: Cut) -> Self {
-        Self::new(cut_exit(cut), cut)
+impl From<Stop> for Failure {
+    fn from(stop: Stop) -> Self {
+        Self::new(stop_exit(stop), format!("{stop} while grounding"))
     }
 }
 
@@ -106,7 +106,7 @@ impl From<ModelFileError> for Failure {
 impl From<ProposeError> for Failure {
     fn from(error: ProposeError) -> Self {
         match error {
-            ProposeError::Cut(cut) => cut.into(),
+            ProposeError::Stopped(stop) => stop.into(),
             ProposeError::External(ExternalFailure::Failed(message)) => {
                 Self::new(Exit::Planner, format!("the planner failed: {message}"))
             }
@@ -139,11 +139,11 @@ fn printable_lines(text: &str) -> String {
 }
 
 /// The exit code of grounding that was ended.
-pub(crate) fn cut_exit(cut: Cut) -> Exit {
-    match cut {
-        Cut::OutOfMemory => Exit::OutOfMemory,
-        Cut::Stopped(Stop::Time) => Exit::OutOfTime,
-        Cut::Stopped(Stop::Cancelled) => Exit::Interrupted,
+pub(crate) fn stop_exit(stop: Stop) -> Exit {
+    match stop {
+        Stop::Memory => Exit::OutOfMemory,
+        Stop::Time => Exit::OutOfTime,
+        Stop::Cancelled => Exit::Interrupted,
     }
 }
 

@@ -1,6 +1,6 @@
 //! Limits: the only place where the program looks at the clock for an algorithm, and where Ctrl-C arrives.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
@@ -33,7 +33,7 @@ pub(crate) struct Limits {
     /// Expand at most this many nodes in one search
     #[arg(long, value_name = "N", value_parser = parse_whole, allow_negative_numbers = true)]
     max_expansions: Option<u64>,
-    /// Hold at most this many megabytes in grounding and search, by typelift's own count
+    /// Hold at most this many megabytes, the program itself included
     #[arg(long, value_name = "MB", value_parser = parse_whole, allow_negative_numbers = true)]
     memory_limit: Option<u64>,
 }
@@ -120,19 +120,53 @@ impl Limits {
     pub(crate) fn budget(self, clock: Clock, interrupt: &Interrupt) -> Budget {
         let interrupt = interrupt.clone();
         let limit = self.time_limit;
+        let bytes = self.memory_limit.map(|megabytes| megabytes.saturating_mul(1 << 20));
+        let meter = MemoryMeter::default();
         Budget {
             expansions: self.max_expansions,
-            bytes: self.memory_limit.map(|megabytes| megabytes.saturating_mul(1 << 20)),
+            // What the algorithms count for themselves is the second best.
+            bytes: bytes.filter(|_| resident().is_none()),
             stop: Some(Arc::new(move || {
                 if interrupt.is_set() {
                     Some(Stop::Cancelled)
                 } else if limit.is_some_and(|limit| clock.elapsed() >= limit) {
                     Some(Stop::Time)
+                } else if bytes.is_some_and(|bytes| meter.exceeds(bytes, clock)) {
+                    Some(Stop::Memory)
                 } else {
                     None
                 }
             })),
         }
+    }
+}
+
+/// The bytes of memory that the program holds, if the system tells.
+fn resident() -> Option<u64> {
+    memory_stats::memory_stats().map(|stats| stats.physical_mem as u64)
+}
+
+/// Asks the system how much memory the program holds: what an algorithm counts for itself leaves out what was given back
+/// and may not be used again.
+#[derive(Default)]
+struct MemoryMeter {
+    /// When it is asked again, in microseconds of the program's clock.
+    next: AtomicU64,
+}
+
+impl MemoryMeter {
+    /// Asking takes a few microseconds.
+    const INTERVAL: u64 = 1_000;
+
+    /// Whether the program holds more than so many bytes, as far as the system tells, and it was time to ask.
+    fn exceeds(&self, bytes: u64, clock: Clock) -> bool {
+        let now = clock.elapsed().as_micros() as u64;
+        if now < self.next.load(Ordering::Relaxed) {
+            return false;
+        }
+        self.next.store(now + Self::INTERVAL, Ordering::Relaxed);
+        // A table that grows is there twice for a while.
+        resident().is_some_and(|resident| resident > bytes - bytes / 32)
     }
 }
 

@@ -9,11 +9,11 @@ use serde::Serialize;
 use typelift::agent::{Options, Proposal, ProposeError, propose};
 use typelift::imagine;
 use typelift::model::{ActionModel, Budget, Plan as FoundPlan, Stop, Task};
-use typelift::plan::{Cut, Explanation, Outcome, Restrictions};
+use typelift::plan::{Explanation, Outcome, Restrictions};
 use typelift::world::write_file;
 
 use crate::exit::Exit;
-use crate::failure::{Failure, cut_exit};
+use crate::failure::{Failure, stop_exit};
 use crate::files::{keep_inputs, read_model_input};
 use crate::limits::{Clock, Interrupt, Limits};
 use crate::plan_text::{imagined_note, numbered_steps, plan_file, plan_size};
@@ -110,7 +110,7 @@ struct Begun {
     output: Option<PathBuf>,
     /// When all was read.
     read: Duration,
-    proposal: Result<Proposal, Cut>,
+    proposal: Result<Proposal, Stop>,
 }
 
 impl Plan {
@@ -121,7 +121,7 @@ impl Plan {
         // Whoever waits for the answer need not wait for the memory to be freed.
         let mut proposal = match proposal {
             Ok(proposal) => ManuallyDrop::new(proposal),
-            Err(cut) => return say_cut(cut, self.json, clock.elapsed() - read),
+            Err(cut) => return say_stop(cut, self.json, clock.elapsed() - read),
         };
         let mut out = anstream::stdout().lock();
         let mut plans: Vec<FoundPlan> = Vec::new();
@@ -177,7 +177,7 @@ impl Plan {
         let limit = if self.planner.is_given() { None } else { self.limits.time() };
         let watchdog = Watchdog::start(clock, limit, move || {
             // There is nobody left to tell if printing fails.
-            say_cut(Cut::Stopped(Stop::Time), json, clock.elapsed()).unwrap_or(Exit::OutOfTime)
+            say_stop(Stop::Time, json, clock.elapsed()).unwrap_or(Exit::OutOfTime)
         });
         let begun = self.begin(clock, budget);
         watchdog.call_off();
@@ -194,7 +194,7 @@ impl Plan {
         let read = clock.elapsed();
         let options = self.options(self.imagine, is_given)?;
         let proposal = match propose(&model, &task, &Restrictions::default(), &options, budget) {
-            Err(ProposeError::Cut(cut)) => Err(cut),
+            Err(ProposeError::Stopped(stop)) => Err(stop),
             proposal => Ok(proposal?),
         };
         Ok(Begun { model, task, output, read, proposal })
@@ -306,8 +306,8 @@ impl Plan {
 }
 
 /// Says that the search did not even begin.
-fn say_cut(cut: Cut, json: bool, took: Duration) -> Result<Exit, Failure> {
-    let exit = cut_exit(cut);
+fn say_stop(stop: Stop, json: bool, took: Duration) -> Result<Exit, Failure> {
+    let exit = stop_exit(stop);
     let (outcome, why) = match exit {
         Exit::OutOfMemory => ("out_of_memory", "out of memory while grounding"),
         Exit::OutOfTime => ("out_of_time", "out of time while grounding"),

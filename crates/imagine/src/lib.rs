@@ -23,8 +23,8 @@ mod substitute;
 
 use std::collections::{BTreeSet, VecDeque};
 
-use typelift_model::{ActionModel, ActionSchema, Budget, GroundAtom, HashMap, Symbol, Task, TypeId, UniqueNames};
-use typelift_plan::{Cut, Restrictions, TieOrder, ground, reaches_goals_with_fewer_objects};
+use typelift_model::{ActionModel, ActionSchema, Budget, GroundAtom, HashMap, Stop, Symbol, Task, TypeId, UniqueNames};
+use typelift_plan::{Restrictions, TieOrder, ground, reaches_goals_with_fewer_objects};
 
 pub use guard::Guard;
 
@@ -81,14 +81,14 @@ impl Context<'_> {
 /// a look at every action, and at the instances of its unreachable preconditions.
 ///
 /// # Errors
-/// [`Cut`] if the budget ends it.
+/// [`Stop`] if the budget ends it.
 pub fn imagine(
     model: &ActionModel,
     task: &Task,
     restrictions: &Restrictions,
     options: &Options,
     budget: &Budget,
-) -> Result<Imagination, Cut> {
+) -> Result<Imagination, Stop> {
     if reaches_goals_with_fewer_objects(model, task, restrictions, budget)? {
         return Ok(Imagination::default());
     }
@@ -100,7 +100,7 @@ pub fn imagine(
     let mut imagined = Vec::new();
     while let Some(atom) = queue.pop_front() {
         if let Some(stop) = budget.stopped() {
-            return Err(Cut::Stopped(stop));
+            return Err(stop);
         }
         for potential in potential::get_potential_actions(model, &atom) {
             let Some(proposal) = create::create_imagined_action(&context, &potential) else { continue };

@@ -3,12 +3,19 @@
 use std::fmt;
 use std::sync::Arc;
 
-/// Why an algorithm was told to stop from outside.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+use thiserror::Error;
+
+/// Why an algorithm ended before it was done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum Stop {
     /// The time allowed is used up.
+    #[error("out of time")]
     Time,
+    /// The memory allowed is used up.
+    #[error("out of memory")]
+    Memory,
     /// Somebody asked it to stop.
+    #[error("stopped")]
     Cancelled,
 }
 
@@ -18,7 +25,7 @@ pub struct Budget {
     /// Nodes that one search may expand.
     pub expansions: Option<u64>,
     /// Bytes that grounding and search may hold together, by their own count of what grows without bound: ground actions
-    /// and nodes.
+    /// and nodes. What a whole process may hold is for `stop` to tell.
     pub bytes: Option<u64>,
     /// Asked now and then; an answer ends the work.
     pub stop: Option<Arc<dyn Fn() -> Option<Stop> + Send + Sync>>,

@@ -2,11 +2,10 @@
 
 use std::hash::{BuildHasher, Hash, Hasher};
 
-use typelift_model::{ActionSchema, Budget, HashMap, Symbol};
+use typelift_model::{ActionSchema, Budget, HashMap, Stop, Symbol};
 
 use crate::ground::Op;
 use crate::memory::held;
-use crate::reach::Cut;
 
 /// Distinct ground actions.
 pub(crate) struct Distinct<'a> {
@@ -26,7 +25,7 @@ impl<'a> Distinct<'a> {
     }
 
     /// Keeps an action unless there is the same one; `others` are bytes that are held besides.
-    pub(crate) fn insert(&mut self, op: Op, others: u64, budget: &Budget) -> Result<(), Cut> {
+    pub(crate) fn insert(&mut self, op: Op, others: u64, budget: &Budget) -> Result<(), Stop> {
         let hash = self.hash(&op);
         let mut known = self.by_hash.get(&hash).copied();
         while let Some(index) = known {
@@ -39,7 +38,7 @@ impl<'a> Distinct<'a> {
         // With its share of the two tables.
         self.bytes += op.bytes() + 48;
         self.ops.push(op);
-        if budget.bytes.is_some_and(|limit| self.bytes + others > limit) { Err(Cut::OutOfMemory) } else { Ok(()) }
+        if budget.bytes.is_some_and(|limit| self.bytes + others > limit) { Err(Stop::Memory) } else { Ok(()) }
     }
 
     fn call<'b>(&'b self, op: &'b Op) -> (&'b Symbol, impl Iterator<Item = Symbol> + 'b) {

@@ -2,15 +2,15 @@
 
 use std::collections::BTreeSet;
 
-use typelift_model::{ActionSchema, GroundAtom, Symbol};
+use typelift_model::{ActionSchema, GroundAtom, Stop, Symbol};
 
 use crate::Ban;
 use crate::fact::{FactId, ObjectId};
 use crate::pattern::{Compiled, CompiledEffect, Condition, Pattern, Source};
-use crate::reach::{Cut, Join, Pending, RawEffect, RawOp};
+use crate::reach::{Join, Pending, RawEffect, RawOp};
 
 impl Join<'_> {
-    pub(crate) fn emit(&mut self, schema: &Compiled<'_>, binding: &[Option<ObjectId>]) -> Result<(), Cut> {
+    pub(crate) fn emit(&mut self, schema: &Compiled<'_>, binding: &[Option<ObjectId>]) -> Result<(), Stop> {
         let Some((preconditions, negative)) = self.ground_condition(&schema.condition, binding) else {
             return Ok(());
         };
@@ -50,7 +50,7 @@ impl Join<'_> {
             Source::Axiom(_) => self.axioms.push(op),
         }
         if self.budget.bytes.is_some_and(|limit| self.bytes > limit) {
-            return Err(Cut::OutOfMemory);
+            return Err(Stop::Memory);
         }
         self.poll.check(1)
     }
@@ -104,7 +104,7 @@ impl Join<'_> {
         next: usize,
         binding: &mut [Option<ObjectId>],
         into: &mut Vec<RawEffect>,
-    ) -> Result<(), Cut> {
+    ) -> Result<(), Stop> {
         if next == effect.fits.len() {
             if let Some((condition, negative_condition)) = self.ground_condition(&effect.condition, binding) {
                 let fact = self.ground_pattern(&effect.result, binding);

@@ -5,14 +5,14 @@
 
 use std::collections::BTreeSet;
 
-use typelift_model::{ActionModel, ActionSchema, Budget, GroundAtom, HashMap, Step, Symbol, Task};
+use typelift_model::{ActionModel, ActionSchema, Budget, GroundAtom, HashMap, Step, Stop, Symbol, Task};
 
 use crate::Restrictions;
 use crate::distinct::Distinct;
 use crate::fact::{FactId, Facts};
 use crate::fdr::{Assignment, Axioms, FOLLOWS, Place};
 use crate::poll::Poll;
-use crate::reach::{Cut, RawOp, Reached, reach};
+use crate::reach::{RawOp, Reached, reach};
 
 /// A ground action of one [`GroundTask`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -101,14 +101,14 @@ pub struct GroundTask {
 /// Grounds a task: what is reachable without deletes, nothing else.
 ///
 /// # Errors
-/// [`Cut`] if the budget ends it.
+/// [`Stop`] if the budget ends it.
 pub fn ground(
     model: &ActionModel,
     task: &Task,
     restrictions: &Restrictions,
     order: TieOrder,
     budget: &Budget,
-) -> Result<GroundTask, Cut> {
+) -> Result<GroundTask, Stop> {
     let Reached { mut facts, ops: mut raw, axioms: raw_axioms, mut bytes } = reach(model, task, restrictions, budget)?;
     let derived = model.derived_predicates();
     let basic = task.init.atoms.iter().filter(|atom| !derived.contains(&atom.predicate));

@@ -1,6 +1,6 @@
 //! One level of a planner: a task with some or all of its objects, grounded once and searched on demand.
 
-use typelift_model::{ActionModel, Budget, GroundAtom, HashSet, Plan, Task};
+use typelift_model::{ActionModel, Budget, GroundAtom, HashSet, Plan, Stop, Task};
 
 use crate::Restrictions;
 use crate::fact::FactId;
@@ -9,7 +9,6 @@ use crate::ground::{GroundTask, ground};
 use crate::landmark::exclusive_goals;
 use crate::planner::Options;
 use crate::poll::Poll;
-use crate::reach::Cut;
 use crate::search::{Found, Outcome, Report, Search, Space};
 use crate::strategy::{Stage, Strategy};
 use crate::symmetry::Symmetry;
@@ -48,7 +47,7 @@ impl Level {
         restrictions: &Restrictions,
         options: &Options,
         budget: &Budget,
-    ) -> Result<Self, Cut> {
+    ) -> Result<Self, Stop> {
         let ground = ground(model, task, restrictions, options.tie_order, budget)?;
         let exclusive = exclusive_goals(&ground, budget)?;
         let lasting = lasting(&ground, budget)?;
@@ -166,7 +165,7 @@ impl Running {
         ground: &GroundTask,
         plans: usize,
         budget: &Budget,
-    ) -> Result<(), Cut> {
+    ) -> Result<(), Stop> {
         if (strategy, stage) == (self.strategy, self.stage) {
             return Ok(());
         }
@@ -207,7 +206,7 @@ impl Running {
 }
 
 /// What must not hold in the end, but holds initially and is neither deleted by any action nor derived.
-fn lasting(task: &GroundTask, budget: &Budget) -> Result<Vec<GroundAtom>, Cut> {
+fn lasting(task: &GroundTask, budget: &Budget) -> Result<Vec<GroundAtom>, Stop> {
     if task.negative_goal().is_empty() {
         return Ok(Vec::new());
     }

@@ -43,7 +43,6 @@ pub use fact::FactId;
 pub use ground::{ConditionalEffect, GroundTask, Op, OpId, TieOrder, ground};
 pub use landmark::{LandmarkSequence, landmark_sequences};
 pub use planner::{Options, Planner};
-pub use reach::Cut;
 pub use restrict::{Ban, Exclusion, Restrictions};
 pub use scope::reaches_goals_with_fewer_objects;
 pub use search::{Outcome, Report};

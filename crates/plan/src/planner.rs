@@ -1,12 +1,11 @@
 //! From a model and a task to plans.
 
-use typelift_model::{ActionModel, Budget, HashSet, Plan, Symbol, Task};
+use typelift_model::{ActionModel, Budget, HashSet, Plan, Stop, Symbol, Task};
 
 use crate::Restrictions;
 use crate::explain::{Explanation, unreachable};
 use crate::ground::{GroundTask, TieOrder};
 use crate::level::Level;
-use crate::reach::Cut;
 use crate::scope::{FEW_OBJECTS, FEW_OBJECTS_LAZILY, Scopes};
 use crate::search::{Outcome, Report};
 use crate::strategy::Strategy;
@@ -59,14 +58,14 @@ impl Planner {
     /// The model is taken as it is: whoever wants strict applicability or imagined actions rewrites it before.
     ///
     /// # Errors
-    /// [`Cut`] if the budget ends grounding, or the work on landmarks.
+    /// [`Stop`] if the budget ends grounding, or the work on landmarks.
     pub fn new(
         model: &ActionModel,
         task: &Task,
         restrictions: &Restrictions,
         options: &Options,
         budget: &Budget,
-    ) -> Result<Self, Cut> {
+    ) -> Result<Self, Stop> {
         let mut scopes = match options.strategy {
             strategy if strategy.is_optimal() => Scopes::whole(),
             Strategy::OrderedLandmarks => Scopes::of(model, task, restrictions, FEW_OBJECTS),
@@ -137,7 +136,7 @@ impl Planner {
     }
 
     /// Grounds the task with more objects, until no goal is out of reach. If that is cut, it is done the next time.
-    fn grow(&mut self, budget: &Budget) -> Result<(), Cut> {
+    fn grow(&mut self, budget: &Budget) -> Result<(), Stop> {
         if self.level.is_open() {
             self.past = self.past.and(self.level.report());
             self.level.close();
@@ -209,15 +208,6 @@ impl Report {
             evaluations: self.evaluations + later.evaluations,
             reopened: self.reopened + later.reopened,
             bytes: later.bytes,
-        }
-    }
-}
-
-impl From<Cut> for Outcome {
-    fn from(cut: Cut) -> Self {
-        match cut {
-            Cut::OutOfMemory => Self::OutOfMemory,
-            Cut::Stopped(stop) => stop.into(),
         }
     }
 }

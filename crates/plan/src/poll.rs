@@ -2,8 +2,6 @@
 
 use typelift_model::{Budget, Stop};
 
-use crate::reach::Cut;
-
 /// How much work is done between two questions. A unit is a look at one fact, object or action.
 const INTERVAL: usize = 1 << 12;
 
@@ -30,7 +28,7 @@ impl<'a> Poll<'a> {
     }
 
     /// The same where a stop is an error.
-    pub(crate) fn check(&mut self, work: usize) -> Result<(), Cut> {
-        self.stopped(work).map_or(Ok(()), |stop| Err(Cut::Stopped(stop)))
+    pub(crate) fn check(&mut self, work: usize) -> Result<(), Stop> {
+        self.stopped(work).map_or(Ok(()), Err)
     }
 }

@@ -8,7 +8,6 @@
 //! are ignored, as deletes are, unless nothing ever changes what they speak of. An effect with a condition is reached
 //! when the positive part of it is. Axioms are joined as actions are.
 
-use thiserror::Error;
 use typelift_model::{ActionModel, Budget, HashMap, HashSet, Stop, Task};
 
 use crate::Restrictions;
@@ -16,17 +15,6 @@ use crate::fact::{FactId, Facts, ObjectId};
 use crate::memory::held;
 use crate::pattern::{Arg, Compiled, Compiler, Pattern, fluents};
 use crate::poll::Poll;
-
-/// Why grounding ended early.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
-pub enum Cut {
-    /// The bytes allowed are used up.
-    #[error("out of memory while grounding")]
-    OutOfMemory,
-    /// It was told to stop.
-    #[error("stopped while grounding")]
-    Stopped(Stop),
-}
 
 /// A ground action or axiom as reachability finds it.
 #[derive(Debug, Clone)]
@@ -63,7 +51,7 @@ pub(crate) fn reach(
     task: &Task,
     restrictions: &Restrictions,
     budget: &Budget,
-) -> Result<Reached, Cut> {
+) -> Result<Reached, Stop> {
     let mut facts = Facts::new(task);
     let mut compiler = Compiler { model, restrictions, facts: &mut facts };
     let mut schemas: Vec<Compiled<'_>> =
@@ -250,7 +238,7 @@ impl Join<'_> {
         schema: &Compiled<'_>,
         binding: &mut Vec<Option<ObjectId>>,
         open: &mut Vec<(usize, bool)>,
-    ) -> Result<(), Cut> {
+    ) -> Result<(), Stop> {
         let best =
             (0..open.len()).min_by_key(|&i| self.candidates(&schema.condition.positive[open[i].0], binding).len());
         let Some(best) = best else { return self.complete(schema, binding) };
@@ -275,7 +263,7 @@ impl Join<'_> {
         Ok(())
     }
 
-    fn complete(&mut self, schema: &Compiled<'_>, binding: &mut Vec<Option<ObjectId>>) -> Result<(), Cut> {
+    fn complete(&mut self, schema: &Compiled<'_>, binding: &mut Vec<Option<ObjectId>>) -> Result<(), Stop> {
         let Some(free) = binding.iter().position(Option::is_none) else { return self.emit(schema, binding) };
         self.poll.check(self.facts.objects.len())?;
         for object in self.facts.object_ids() {

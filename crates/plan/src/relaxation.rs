@@ -8,8 +8,11 @@
 
 use std::collections::BTreeMap;
 
+use typelift_model::Stop;
+
 use crate::fdr::{ActionIndex, Assignment, Fdr, GroundAxiom, Values};
 use crate::lists::Lists;
+use crate::poll::Poll;
 
 /// A proposition of one [`Relaxation`].
 pub(crate) type Prop = u32;
@@ -46,7 +49,11 @@ pub(crate) struct Relaxation {
 }
 
 impl Relaxation {
-    pub(crate) fn new(task: &Fdr, negatives: Negatives) -> Self {
+    /// Relaxes a task.
+    ///
+    /// # Errors
+    /// [`Stop`] if the budget ends it.
+    pub(crate) fn new(task: &Fdr, negatives: Negatives, poll: &mut Poll<'_>) -> Result<Self, Stop> {
         let mut builder = Builder {
             task,
             negatives,
@@ -54,15 +61,15 @@ impl Relaxation {
             negations: BTreeMap::new(),
             open: Vec::new(),
             always: Vec::new(),
-            relaxed: Vec::new(),
+            relaxed: Relaxed::default(),
         };
         let mut goal = builder.all(&task.goal, &task.negative_goal);
         goal.sort_unstable();
         goal.dedup();
-        builder.add_actions();
+        builder.add_actions(poll)?;
         builder.add_axioms();
         builder.close();
-        builder.finish(goal)
+        builder.finish(goal, poll)
     }
 
     /// The bytes that its lists hold.
@@ -102,10 +109,25 @@ impl Relaxation {
     }
 }
 
+/// Relaxed actions as they are met.
+#[derive(Default)]
 struct Relaxed {
-    preconditions: Vec<Prop>,
-    adds: Vec<Prop>,
-    action: Option<ActionIndex>,
+    preconditions: Lists<Prop>,
+    adds: Lists<Prop>,
+    action: Vec<Option<ActionIndex>>,
+}
+
+impl Relaxed {
+    fn push(
+        &mut self,
+        preconditions: impl IntoIterator<Item = Prop>,
+        adds: impl IntoIterator<Item = Prop>,
+        action: Option<ActionIndex>,
+    ) {
+        self.preconditions.push(preconditions);
+        self.adds.push(adds);
+        self.action.push(action);
+    }
 }
 
 struct Builder<'a> {
@@ -116,7 +138,7 @@ struct Builder<'a> {
     /// Negations of which is not said yet what makes them true.
     open: Vec<(Assignment, Prop)>,
     always: Vec<Prop>,
-    relaxed: Vec<Relaxed>,
+    relaxed: Relaxed,
 }
 
 impl Builder<'_> {
@@ -145,29 +167,30 @@ impl Builder<'_> {
         props
     }
 
-    fn add_actions(&mut self) {
-        let actions = &self.task.actions;
-        for index in 0..self.task.action_count() {
+    fn add_actions(&mut self, poll: &mut Poll<'_>) -> Result<(), Stop> {
+        let (task, actions) = (self.task, &self.task.actions);
+        for index in 0..task.action_count() {
             let preconditions = self.all(actions.preconditions.get(index), actions.negative.get(index));
-            let adds = actions.adds.get(index).iter().map(|&fact| self.task.number(fact)).collect();
+            poll.check(1 + preconditions.len())?;
             let action = Some(index as u32);
             for &when in actions.conditional.get(index) {
                 let when = &actions.when[when as usize];
                 if when.adds {
                     let mut condition = self.all(&when.positive, &when.negative);
                     condition.extend(&preconditions);
-                    let adds = vec![self.task.number(when.assignment)];
-                    self.relaxed.push(Relaxed { preconditions: condition, adds, action });
+                    self.relaxed.push(condition, [task.number(when.assignment)], action);
                 }
             }
-            self.relaxed.push(Relaxed { preconditions, adds, action });
+            let adds = actions.adds.get(index).iter().map(|&fact| task.number(fact));
+            self.relaxed.push(preconditions, adds, action);
         }
+        Ok(())
     }
 
     fn add_axioms(&mut self) {
         for axiom in self.task.axioms.iter() {
             let preconditions = self.all(&axiom.conditions().collect::<Vec<_>>(), &axiom.negative);
-            self.relaxed.push(Relaxed { preconditions, adds: vec![self.task.number(axiom.head())], action: None });
+            self.relaxed.push(preconditions, [self.task.number(axiom.head())], None);
         }
     }
 
@@ -184,10 +207,9 @@ impl Builder<'_> {
                 self.always.push(prop);
             } else if let Some(axioms) = axioms.get(&fact.variable) {
                 let blocked: Vec<Prop> = axioms.iter().map(|axiom| self.blocked(axiom)).collect();
-                self.relaxed.push(Relaxed { preconditions: blocked, adds: vec![prop], action: None });
+                self.relaxed.push(blocked, [prop], None);
             }
         }
-        self.add_deletes();
     }
 
     /// A proposition that one literal's negation makes true.
@@ -195,30 +217,19 @@ impl Builder<'_> {
         let blocked = self.fresh();
         for fact in axiom.conditions() {
             if let Some(not) = self.negation(fact) {
-                self.relaxed.push(Relaxed { preconditions: vec![not], adds: vec![blocked], action: None });
+                self.relaxed.push([not], [blocked], None);
             }
         }
         for &fact in &axiom.negative {
-            let prop = self.task.number(fact);
-            self.relaxed.push(Relaxed { preconditions: vec![prop], adds: vec![blocked], action: None });
+            self.relaxed.push([self.task.number(fact)], [blocked], None);
         }
         blocked
     }
 
-    /// What deletes a fact makes its negation true. Effects whose conditions have negations of their own make it true
-    /// under the positive part.
-    fn add_deletes(&mut self) {
-        if self.negations.is_empty() {
-            return;
-        }
+    /// What deletes a fact under a condition makes its negation true; where the condition has negations of its own that
+    /// nothing asks for, under the rest of it.
+    fn add_conditional_deletes(&mut self) {
         let actions = &self.task.actions;
-        for relaxed in &mut self.relaxed {
-            // The unconditional part of an action is its last relaxed action; its deletes are added to each part.
-            if let Some(action) = relaxed.action {
-                let deleted = actions.deletes.get(action as usize).iter();
-                relaxed.adds.extend(deleted.filter_map(|fact| self.negations.get(fact)));
-            }
-        }
         for index in 0..self.task.action_count() {
             let mut preconditions = None;
             for &when in actions.conditional.get(index) {
@@ -234,33 +245,45 @@ impl Builder<'_> {
                 let mut condition = preconditions.clone();
                 condition.extend(when.positive.iter().map(|&fact| self.task.number(fact)));
                 condition.extend(when.negative.iter().filter_map(|fact| self.negations.get(fact)));
-                self.relaxed.push(Relaxed { preconditions: condition, adds: vec![prop], action: Some(index as u32) });
+                self.relaxed.push(condition, [prop], Some(index as u32));
             }
         }
     }
 
-    fn finish(self, goal: Vec<Prop>) -> Relaxation {
+    fn finish(mut self, goal: Vec<Prop>, poll: &mut Poll<'_>) -> Result<Relaxation, Stop> {
+        if !self.negations.is_empty() {
+            self.add_conditional_deletes();
+        }
         let facts = self.task.fact_count() as u32;
         let mut negated = vec![None; (self.props - facts) as usize];
         for (&fact, &prop) in &self.negations {
             negated[(prop - facts) as usize] = Some(fact);
         }
         let (mut preconditions, mut adds, mut action) = (Lists::default(), Lists::default(), Vec::new());
-        for mut relaxed in self.relaxed {
-            relaxed.preconditions.sort_unstable();
-            relaxed.preconditions.dedup();
-            relaxed.adds.sort_unstable();
-            relaxed.adds.dedup();
-            relaxed.adds.retain(|prop| relaxed.preconditions.binary_search(prop).is_err());
-            if relaxed.adds.is_empty() {
-                continue;
+        let (mut needed, mut added) = (Vec::new(), Vec::new());
+        let relaxed = self.relaxed.preconditions.iter().zip(self.relaxed.adds.iter()).zip(&self.relaxed.action);
+        for ((preconditions_met, adds_met), &part_of) in relaxed {
+            needed.clear();
+            needed.extend_from_slice(preconditions_met);
+            needed.sort_unstable();
+            needed.dedup();
+            added.clear();
+            added.extend_from_slice(adds_met);
+            // What an action deletes in any case, each of its parts deletes.
+            let deletes = part_of.map_or(&[][..], |action| self.task.actions.deletes.get(action as usize));
+            added.extend(deletes.iter().filter_map(|fact| self.negations.get(fact)));
+            added.sort_unstable();
+            added.dedup();
+            added.retain(|prop| needed.binary_search(prop).is_err());
+            poll.check(1 + needed.len() + added.len())?;
+            if !added.is_empty() {
+                preconditions.push(needed.iter().copied());
+                adds.push(added.iter().copied());
+                action.push(part_of);
             }
-            preconditions.push(relaxed.preconditions);
-            adds.push(relaxed.adds);
-            action.push(relaxed.action);
         }
         let props = self.props as usize;
-        Relaxation {
+        Ok(Relaxation {
             facts,
             negated,
             always: self.always,
@@ -270,6 +293,6 @@ impl Builder<'_> {
             adds,
             action,
             goal,
-        }
+        })
     }
 }

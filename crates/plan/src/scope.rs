@@ -17,18 +17,18 @@
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
-use typelift_model::{ActionModel, Budget, GroundAtom, HashMap, State, Symbol, Task, TypeId};
+use typelift_model::{ActionModel, Budget, GroundAtom, HashMap, State, Stop, Symbol, Task, TypeId};
 
 use crate::Restrictions;
-use crate::reach::{Cut, reach};
+use crate::reach::reach;
 use crate::symmetry::constants;
 
 /// Tasks with at most so many objects are planned with all of them: by the paper's search, which estimates every successor,
 /// and by others.
-pub(crate) const FEW_OBJECTS: usize = 200;
+pub(crate) const FEW_OBJECTS: usize = 50;
 pub(crate) const FEW_OBJECTS_LAZILY: usize = 1_000;
 /// A level has at most one in so many of the objects.
-const SHARE: usize = 4;
+const SHARE: usize = 2;
 /// What is beside more than so many others leads nowhere.
 const MANY_NEIGHBOURS: usize = 16;
 /// What is beside at most so many others brings them with it.
@@ -200,13 +200,13 @@ fn classes(task: &Task, restrictions: &Restrictions, ids: &HashMap<&Symbol, Obje
 /// them they may still be: this asks no question that [`ground`](crate::ground) would have to be asked anyway.
 ///
 /// # Errors
-/// [`Cut`] if the budget ends it.
+/// [`Stop`] if the budget ends it.
 pub fn reaches_goals_with_fewer_objects(
     model: &ActionModel,
     task: &Task,
     restrictions: &Restrictions,
     budget: &Budget,
-) -> Result<bool, Cut> {
+) -> Result<bool, Stop> {
     let mut scopes = Scopes::of(model, task, restrictions, FEW_OBJECTS);
     while !scopes.is_whole() {
         let task = scopes.restrict(task);

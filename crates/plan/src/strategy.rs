@@ -4,13 +4,12 @@ use std::fmt;
 use std::str::FromStr;
 use std::sync::Arc;
 
-use typelift_model::Budget;
+use typelift_model::{Budget, Stop};
 
 use crate::ground::GroundTask;
 use crate::heuristic::{Blind, CostMeasure, Ff, Heuristic, LandmarkCount, LmCut, OrderedLandmarks, Undominated};
 use crate::landmark::{LandmarkGraph, sequences};
 use crate::poll::Poll;
-use crate::reach::Cut;
 use crate::relaxation::{Negatives, Relaxation};
 use crate::search::{AStar, Attempts, EAGER, Interleaved, Lazy, Preference, Priority, Search, Space};
 use crate::shuffle::Shuffler;
@@ -92,111 +91,134 @@ impl Strategy {
         space: &mut Space,
         plans: usize,
         budget: &Budget,
-    ) -> Result<Box<dyn Search>, Cut> {
+    ) -> Result<Box<dyn Search>, Stop> {
         space.bytes = space.task_bytes;
+        let mut poll = Poll::new(budget);
         Ok(match self {
             Self::OrderedLandmarks => Box::new(ordered(ground, space, plans, budget)?),
             Self::AStarLmCut => {
-                let relaxation = Arc::new(Relaxation::new(&space.task, Negatives::Propositions));
-                Box::new(AStar::new(space, Box::new(LmCut::new(&space.task, relaxation)), true, plans))
+                let relaxation = Relaxation::new(&space.task, Negatives::Propositions, &mut poll)?;
+                Box::new(AStar::new(space, Box::new(LmCut::new(&space.task, Arc::new(relaxation))), true, plans))
             }
             Self::AStarBlind => Box::new(AStar::new(space, Box::new(Blind::new(&space.task)), true, plans)),
-            Self::Lama | Self::LazyFf | Self::LazyLandmarks => {
-                let parts = Parts::new(stage, ground, space, budget)?;
-                space.bytes += parts.bytes();
-                self.lazy_search(stage, parts, ground, space, budget)?
+            Self::LazyFf => {
+                let way = Way::of(stage);
+                let relaxed = RelaxedPlans::new(way, space, &mut poll)?;
+                Box::new(way.lazy(space, vec![Box::new(relaxed.ff())], Preference::Preferred))
             }
-        })
-    }
-
-    fn lazy_search(
-        self,
-        stage: Stage,
-        parts: Parts,
-        ground: &GroundTask,
-        space: &Space,
-        budget: &Budget,
-    ) -> Result<Box<dyn Search>, Cut> {
-        Ok(match (self, stage) {
-            (Self::LazyFf, _) => Box::new(parts.lazy(space, vec![Box::new(parts.ff())], Preference::Preferred)),
-            (Self::LazyLandmarks, _) => {
-                Box::new(parts.lazy(space, vec![Box::new(parts.landmark_count(space))], Preference::None))
+            Self::LazyLandmarks => {
+                let relaxation = Relaxation::new(&space.task, Negatives::Propositions, &mut poll)?;
+                let graph = Arc::new(LandmarkGraph::new(ground, &space.task, &relaxation, &mut poll)?);
+                let count = LandmarkCount::new(graph, &space.task, &relaxation);
+                Box::new(Way::of(stage).lazy(space, vec![Box::new(count)], Preference::None))
             }
-            (_, Stage::First) => {
-                let mut lasting: Vec<(Box<dyn Search>, u64)> = Vec::new();
-                if space.task.goal.len() <= MOST_GOALS_IN_ORDER {
-                    lasting.push((Box::new(ordered(ground, space, 1, budget)?), EAGER));
+            Self::Lama => {
+                let lama = Lama::new(Way::of(stage), ground, space, &mut poll)?;
+                match stage {
+                    Stage::First => Box::new(lama.first(ground, space, budget)?),
+                    Stage::Weighted(_) => Box::new(lama.search(space, Preference::Helpful)),
                 }
-                for preference in [Preference::Helpful, Preference::Preferred] {
-                    lasting.push((Box::new(parts.lama(space, preference)), 1));
-                }
-                Box::new(Interleaved::new(lasting, Box::new(parts)))
             }
-            (_, Stage::Weighted(_)) => Box::new(parts.lama(space, Preference::Helpful)),
         })
     }
 }
 
 /// The paper's search.
-fn ordered(ground: &GroundTask, space: &Space, plans: usize, budget: &Budget) -> Result<AStar, Cut> {
+fn ordered(ground: &GroundTask, space: &Space, plans: usize, budget: &Budget) -> Result<AStar, Stop> {
     let heuristic = OrderedLandmarks::new(sequences(ground, &space.task, budget)?);
     Ok(AStar::new(space, Box::new(heuristic), false, plans))
 }
 
-/// What lazy searches of one stage share.
-#[derive(Debug)]
-struct Parts {
+/// How lazy searches of one stage rank states, and measure costs.
+#[derive(Debug, Clone, Copy)]
+struct Way {
     priority: Priority,
     measure: CostMeasure,
-    relaxation: Arc<Relaxation>,
-    undominated: Arc<Undominated>,
-    costs: Vec<u32>,
-    landmarks: Arc<LandmarkGraph>,
 }
 
-impl Parts {
-    fn new(stage: Stage, ground: &GroundTask, space: &Space, budget: &Budget) -> Result<Self, Cut> {
+impl Way {
+    fn of(stage: Stage) -> Self {
         let (priority, measure) = match stage {
             Stage::First => (Priority::Greedy, CostMeasure::Steps),
             Stage::Weighted(weight) => (Priority::Weighted(weight), CostMeasure::PlusOne),
         };
-        let relaxation = Arc::new(Relaxation::new(&space.task, Negatives::Propositions));
-        let costs = measure.of(&space.task);
-        let undominated = Arc::new(Undominated::of(&relaxation, &costs));
-        let landmarks = LandmarkGraph::new(ground, &space.task, &relaxation, &mut Poll::new(budget))?;
-        Ok(Self { priority, measure, relaxation, undominated, costs, landmarks: Arc::new(landmarks) })
+        Self { priority, measure }
     }
 
-    fn bytes(&self) -> u64 {
-        self.relaxation.bytes() + self.undominated.bytes() + self.costs.len() as u64 * 4
+    fn lazy(self, space: &Space, heuristics: Vec<Box<dyn Heuristic>>, preference: Preference) -> Lazy {
+        Lazy::new(space, self.priority, self.measure, heuristics, preference)
+    }
+}
+
+/// What several FF heuristics share.
+#[derive(Debug)]
+struct RelaxedPlans {
+    relaxation: Arc<Relaxation>,
+    undominated: Arc<Undominated>,
+    costs: Vec<u32>,
+}
+
+impl RelaxedPlans {
+    fn new(way: Way, space: &mut Space, poll: &mut Poll<'_>) -> Result<Self, Stop> {
+        let relaxation = Arc::new(Relaxation::new(&space.task, Negatives::Propositions, poll)?);
+        let costs = way.measure.of(&space.task);
+        let undominated = Arc::new(Undominated::of(&relaxation, &costs, poll)?);
+        space.bytes += relaxation.bytes() + undominated.bytes() + costs.len() as u64 * 4;
+        Ok(Self { relaxation, undominated, costs })
     }
 
     fn ff(&self) -> Ff {
         Ff::new(Arc::clone(&self.relaxation), Arc::clone(&self.undominated), self.costs.clone())
     }
+}
+
+/// What LAMA's searches of one stage share.
+#[derive(Debug)]
+struct Lama {
+    way: Way,
+    relaxed: RelaxedPlans,
+    landmarks: Arc<LandmarkGraph>,
+}
+
+impl Lama {
+    fn new(way: Way, ground: &GroundTask, space: &mut Space, poll: &mut Poll<'_>) -> Result<Self, Stop> {
+        let relaxed = RelaxedPlans::new(way, space, poll)?;
+        let landmarks = Arc::new(LandmarkGraph::new(ground, &space.task, &relaxed.relaxation, poll)?);
+        Ok(Self { way, relaxed, landmarks })
+    }
 
     fn landmark_count(&self, space: &Space) -> LandmarkCount {
-        LandmarkCount::new(Arc::clone(&self.landmarks), &space.task, &self.relaxation)
+        LandmarkCount::new(Arc::clone(&self.landmarks), &space.task, &self.relaxed.relaxation)
     }
 
-    fn lazy(&self, space: &Space, heuristics: Vec<Box<dyn Heuristic>>, preference: Preference) -> Lazy {
-        Lazy::new(space, self.priority, self.measure, heuristics, preference)
+    fn search(&self, space: &Space, preference: Preference) -> Lazy {
+        let heuristics: Vec<Box<dyn Heuristic>> =
+            vec![Box::new(self.relaxed.ff()), Box::new(self.landmark_count(space))];
+        self.way.lazy(space, heuristics, preference)
     }
 
-    fn lama(&self, space: &Space, preference: Preference) -> Lazy {
-        self.lazy(space, vec![Box::new(self.ff()), Box::new(self.landmark_count(space))], preference)
+    /// The searches for a first plan.
+    fn first(self, ground: &GroundTask, space: &Space, budget: &Budget) -> Result<Interleaved, Stop> {
+        let mut lasting: Vec<(Box<dyn Search>, u64)> = Vec::new();
+        if space.task.goal.len() <= MOST_GOALS_IN_ORDER {
+            lasting.push((Box::new(ordered(ground, space, 1, budget)?), EAGER));
+        }
+        for preference in [Preference::Helpful, Preference::Preferred] {
+            lasting.push((Box::new(self.search(space, preference)), 1));
+        }
+        Ok(Interleaved::new(lasting, Box::new(self)))
     }
 }
 
-impl Attempts for Parts {
+impl Attempts for Lama {
     fn begin(&self, space: &Space, number: u64) -> Box<dyn Search> {
         let mut shuffler = Shuffler::new(number);
-        let ff = Box::new(self.ff().shuffled(&mut shuffler));
+        let ff = Box::new(self.relaxed.ff().shuffled(&mut shuffler));
         let preference = if number.is_multiple_of(2) { Preference::Helpful } else { Preference::Preferred };
         // Every third without landmarks.
         let heuristics: Vec<Box<dyn Heuristic>> =
             if number.is_multiple_of(3) { vec![ff] } else { vec![ff, Box::new(self.landmark_count(space))] };
-        Box::new(self.lazy(space, heuristics, preference).shuffled(shuffler))
+        Box::new(self.way.lazy(space, heuristics, preference).shuffled(shuffler))
     }
 }
 

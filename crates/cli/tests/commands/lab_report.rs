@@ -35,9 +35,9 @@ fn quick_growth() {
         let fit = fits.iter().find(|fit| fit["series"] == series && fit["quantity"] == quantity);
         fit.and_then(|fit| fit["exponent"].as_f64()).expect(quantity)
     };
-    // What is counted is the same on every machine: more objects of which each goes with each.
+    // What is counted is the same on every machine: of more objects, not more are planned with for long.
     let ground = fitted("storeroom", "ground_actions");
-    assert!((1.2..2.2).contains(&ground), "{ground}");
+    assert!((0.5..1.2).contains(&ground), "{ground}");
     assert!(fitted("goals", "ground_actions").abs() < 1e-9);
     let plot = folder.read("G/growth_objects_ground.svg");
     assert!(plot.contains("larger storeroom: ∝ n^"), "{plot}");

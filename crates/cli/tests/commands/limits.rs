@@ -70,7 +70,7 @@ fn a_time_limit_covers_reading() {
            (:action go :parameters (?a ?b - place) :precondition (and (at ?a) (road ?a ?b)) :effect (at ?b)))",
     );
     let mut problem = String::from("(define (problem far) (:domain roads) (:objects");
-    let places = 40_000;
+    let places = 200_000;
     (0..places).for_each(|i| write!(problem, " p{i}").expect("written"));
     problem.push_str(" - place) (:init (at p0)");
     (1..places).for_each(|i| writeln!(problem, " (road p{} p{i})", i - 1).expect("written"));

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use typelift::agent::{Options, ProposeError, propose};
 use typelift::imagine;
 use typelift::model::{ActionModel, Budget, Stop, Task};
-use typelift::plan::{Cut, Outcome, Restrictions};
+use typelift::plan::{Outcome, Restrictions};
 
 use super::measurement::{End, Measurement};
 use super::processor_time::Stopwatch;
@@ -57,8 +57,8 @@ fn once(model: &ActionModel, task: &Task, allowance: Allowance) -> Measurement {
             };
             (end, Some(proposal.report()), steps)
         }
-        Err(ProposeError::Cut(Cut::OutOfMemory)) => (End::Memory, None, None),
-        Err(ProposeError::Cut(Cut::Stopped(_))) => (End::Time, None, None),
+        Err(ProposeError::Stopped(Stop::Memory)) => (End::Memory, None, None),
+        Err(ProposeError::Stopped(_)) => (End::Time, None, None),
         Err(_) => (End::NoPlan, None, None),
     };
     Measurement {

@@ -10,7 +10,7 @@ mod mutex;
 mod state;
 mod successor;
 
-use typelift_model::Budget;
+use typelift_model::{Budget, Stop};
 
 pub(crate) use axioms::{Axioms, FOLLOWS, GroundAxiom};
 pub(crate) use mutex::MutexGroups;
@@ -22,7 +22,6 @@ use crate::ground::{ConditionalEffect, GroundTask, Op, OpId};
 use crate::lists::Lists;
 use crate::memory::held;
 use crate::poll::Poll;
-use crate::reach::Cut;
 
 /// The value of each variable.
 pub(crate) type Values = [u32];
@@ -100,8 +99,8 @@ impl Fdr {
     /// Represents a ground task.
     ///
     /// # Errors
-    /// [`Cut`] if the budget ends it.
-    pub(crate) fn new(task: &GroundTask, budget: &Budget) -> Result<Self, Cut> {
+    /// [`Stop`] if the budget ends it.
+    pub(crate) fn new(task: &GroundTask, budget: &Budget) -> Result<Self, Stop> {
         let mut poll = Poll::new(budget);
         let changing = changing_facts(task, &mut poll)?;
         let mutexes = MutexGroups::of(task, &changing, &mut poll)?;
@@ -322,7 +321,7 @@ impl Fdr {
 }
 
 /// The facts that can change: reached, and not true from the beginning for ever.
-fn changing_facts(task: &GroundTask, poll: &mut Poll<'_>) -> Result<Vec<bool>, Cut> {
+fn changing_facts(task: &GroundTask, poll: &mut Poll<'_>) -> Result<Vec<bool>, Stop> {
     let mut changing = vec![false; task.fact_count()];
     for fact in task.reached_facts() {
         changing[fact.index()] = true;

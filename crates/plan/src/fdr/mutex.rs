@@ -10,13 +10,12 @@
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap};
 
-use typelift_model::HashMap;
+use typelift_model::{HashMap, Stop};
 
 use crate::fact::{FactId, ObjectId};
 use crate::ground::{GroundTask, Op, OpId};
 use crate::lists::Lists;
 use crate::poll::Poll;
-use crate::reach::Cut;
 
 /// How many candidates are looked at.
 const MOST_CANDIDATES: usize = 300;
@@ -33,7 +32,7 @@ pub(crate) struct MutexGroups {
 }
 
 impl MutexGroups {
-    pub(crate) fn of(task: &GroundTask, changing: &[bool], poll: &mut Poll<'_>) -> Result<Self, Cut> {
+    pub(crate) fn of(task: &GroundTask, changing: &[bool], poll: &mut Poll<'_>) -> Result<Self, Stop> {
         let groups = Finder::new(task, changing, poll)?.run(poll)?;
         let pairs =
             groups.iter().zip(0..).flat_map(|(group, g)| group.iter().map(move |fact| (fact.index() as u32, g)));
@@ -125,7 +124,7 @@ struct Finder<'a> {
 const NO_INSTANCE: u32 = u32::MAX;
 
 impl<'a> Finder<'a> {
-    fn new(task: &'a GroundTask, changing: &[bool], poll: &mut Poll<'_>) -> Result<Self, Cut> {
+    fn new(task: &'a GroundTask, changing: &[bool], poll: &mut Poll<'_>) -> Result<Self, Stop> {
         let mut by_predicate: HashMap<u32, Vec<FactId>> = HashMap::default();
         let facts = task.reached_facts().filter(|fact| changing[fact.index()] && !task.derives(*fact));
         for fact in facts {
@@ -163,7 +162,7 @@ impl<'a> Finder<'a> {
         }
     }
 
-    fn run(&self, poll: &mut Poll<'_>) -> Result<Vec<Vec<FactId>>, Cut> {
+    fn run(&self, poll: &mut Poll<'_>) -> Result<Vec<Vec<FactId>>, Stop> {
         let mut queue: Vec<Candidate> = Vec::new();
         let mut predicates: Vec<u32> = self.by_predicate.keys().copied().collect();
         predicates.sort_unstable();

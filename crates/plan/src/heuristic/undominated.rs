@@ -1,10 +1,11 @@
 //! The relaxed actions that a heuristic has to look at: an effect is left out where another relaxed action has it at no
 //! higher cost from a subset of the preconditions (Helmert, *The Fast Downward planning system*, JAIR 26, 2006).
 
-use typelift_model::HashMap;
+use typelift_model::{HashMap, Stop};
 
 use crate::fdr::ActionIndex;
 use crate::lists::Lists;
+use crate::poll::Poll;
 use crate::relaxation::{Prop, Relaxation};
 
 /// Preconditions of more propositions are compared with equal ones alone.
@@ -28,13 +29,17 @@ impl Undominated {
     }
 
     /// Leaves out what is dominated, with these costs of the actions.
-    pub(crate) fn of(relaxation: &Relaxation, action_costs: &[u32]) -> Self {
+    ///
+    /// # Errors
+    /// [`Stop`] if the budget ends it.
+    pub(crate) fn of(relaxation: &Relaxation, action_costs: &[u32], poll: &mut Poll<'_>) -> Result<Self, Stop> {
         let cost = |relaxed: usize| relaxation.action[relaxed].map_or(0, |action| action_costs[action as usize]);
         // Each set of preconditions once.
         let mut set_ids: HashMap<&[Prop], u32> = HashMap::default();
         let mut sets: Vec<&[Prop]> = Vec::new();
         let mut set_of: Vec<u32> = Vec::with_capacity(relaxation.action.len());
         for preconditions in relaxation.preconditions.iter() {
+            poll.check(1 + preconditions.len())?;
             let id = *set_ids.entry(preconditions).or_insert_with(|| {
                 sets.push(preconditions);
                 sets.len() as u32 - 1
@@ -44,6 +49,7 @@ impl Undominated {
         // The cheapest way, and the first of these, from each set to each effect.
         let mut best: HashMap<(u32, Prop), (u32, u32)> = HashMap::default();
         for (relaxed, adds) in relaxation.adds.iter().enumerate() {
+            poll.check(1 + adds.len())?;
             let way = (cost(relaxed), relaxed as u32);
             for &prop in adds {
                 let known = best.entry((set_of[relaxed], prop)).or_insert(way);
@@ -53,6 +59,7 @@ impl Undominated {
         let subsets = Lists::from_lists(sets.iter().map(|set| known_subsets(set, &set_ids)));
         let mut this = Self::default();
         for (relaxed, adds) in relaxation.adds.iter().enumerate() {
+            poll.check(1 + adds.len())?;
             let own = (cost(relaxed), relaxed as u32);
             let set = set_of[relaxed];
             let is_best = |prop: &&Prop| {
@@ -72,7 +79,7 @@ impl Undominated {
             this.costs.push(own.0);
         }
         this.needed_by = this.preconditions.inverse(relaxation.len());
-        this
+        Ok(this)
     }
 }
 

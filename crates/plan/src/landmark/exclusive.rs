@@ -1,18 +1,17 @@
 //! Goals that exclude each other.
 
-use typelift_model::{Budget, HashSet};
+use typelift_model::{Budget, HashSet, Stop};
 
 use crate::fact::FactId;
 use crate::ground::{GroundTask, Op};
 use crate::poll::Poll;
-use crate::reach::Cut;
 
 /// Two goal facts that cannot hold together: one does not hold initially, and everything that achieves it deletes the
 /// other, which nothing adds again; or each is deleted by everything that achieves the other, and neither holds initially.
 ///
 /// # Errors
-/// [`Cut`] if the budget ends it.
-pub(crate) fn exclusive_goals(task: &GroundTask, budget: &Budget) -> Result<Option<(FactId, FactId)>, Cut> {
+/// [`Stop`] if the budget ends it.
+pub(crate) fn exclusive_goals(task: &GroundTask, budget: &Budget) -> Result<Option<(FactId, FactId)>, Stop> {
     let mut poll = Poll::new(budget);
     let goal = task.goal();
     let mut achievers: Vec<Vec<&Op>> = vec![Vec::new(); goal.len()];

@@ -12,13 +12,12 @@
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use fixedbitset::FixedBitSet;
-use typelift_model::HashMap;
+use typelift_model::{HashMap, Stop};
 
 use super::LandmarkSets;
 use crate::fdr::Fdr;
 use crate::ground::GroundTask;
 use crate::poll::Poll;
-use crate::reach::Cut;
 use crate::relaxation::{Prop, Relaxation, RelaxedIndex};
 
 /// The most facts of a disjunctive landmark.
@@ -47,8 +46,13 @@ impl LandmarkGraph {
     /// The graph of a task whose goals can be reached.
     ///
     /// # Errors
-    /// [`Cut`] if the budget ends it.
-    pub(crate) fn new(task: &GroundTask, fdr: &Fdr, relaxation: &Relaxation, poll: &mut Poll<'_>) -> Result<Self, Cut> {
+    /// [`Stop`] if the budget ends it.
+    pub(crate) fn new(
+        task: &GroundTask,
+        fdr: &Fdr,
+        relaxation: &Relaxation,
+        poll: &mut Poll<'_>,
+    ) -> Result<Self, Stop> {
         let sets = LandmarkSets::of(fdr, relaxation, poll)?;
         let mut builder = Builder { task, fdr, sets, landmarks: Vec::new(), by_prop: HashMap::default() };
         builder.collect(poll)?;
@@ -93,7 +97,7 @@ impl Builder<'_> {
     }
 
     /// Finds all landmarks, with the greedy-necessary orders.
-    fn collect(&mut self, poll: &mut Poll<'_>) -> Result<(), Cut> {
+    fn collect(&mut self, poll: &mut Poll<'_>) -> Result<(), Stop> {
         let goals = self.relaxation().goal.clone();
         let mut props: BTreeSet<Prop> = BTreeSet::new();
         for &goal in &goals {
@@ -192,7 +196,7 @@ impl Builder<'_> {
         sets.filter(|props| props.len() > 1 && props.iter().all(plain)).collect()
     }
 
-    fn natural(&mut self, poll: &mut Poll<'_>) -> Result<(), Cut> {
+    fn natural(&mut self, poll: &mut Poll<'_>) -> Result<(), Stop> {
         for index in 0..self.landmarks.len() {
             let (first, rest) = self.landmarks[index].props.split_at(1);
             let mut before: Vec<Prop> = self.sets.of_prop(first[0]).to_vec();
@@ -216,7 +220,7 @@ impl Builder<'_> {
     }
 
     /// Adds orders that spare making something true twice, as far as they agree with each other and with the others.
-    fn reasonable(&mut self, poll: &mut Poll<'_>) -> Result<(), Cut> {
+    fn reasonable(&mut self, poll: &mut Poll<'_>) -> Result<(), Stop> {
         let mut in_group: HashMap<u32, Vec<u32>> = HashMap::default();
         for (&prop, &landmark) in &self.by_prop {
             for &group in self.groups(prop) {

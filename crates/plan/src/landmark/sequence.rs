@@ -11,14 +11,13 @@
 
 use std::collections::BTreeSet;
 
-use typelift_model::{Budget, GroundAtom, Symbol};
+use typelift_model::{Budget, GroundAtom, Stop, Symbol};
 
 use super::LandmarkSets;
 use crate::fact::FactId;
 use crate::fdr::Fdr;
 use crate::ground::GroundTask;
 use crate::poll::Poll;
-use crate::reach::Cut;
 use crate::relaxation::{Negatives, Prop, Relaxation, RelaxedIndex};
 
 /// Landmarks in the order in which they are to be passed.
@@ -33,15 +32,15 @@ pub struct LandmarkSequence {
 /// The landmark sequences of a task whose goals are all reachable, by goal object, then by other goal atom.
 ///
 /// # Errors
-/// [`Cut`] if the budget ends it.
-pub fn landmark_sequences(task: &GroundTask, budget: &Budget) -> Result<Vec<LandmarkSequence>, Cut> {
+/// [`Stop`] if the budget ends it.
+pub fn landmark_sequences(task: &GroundTask, budget: &Budget) -> Result<Vec<LandmarkSequence>, Stop> {
     sequences(task, &Fdr::new(task, budget)?, budget)
 }
 
 /// The same, where the finite-domain representation is there already.
-pub(crate) fn sequences(task: &GroundTask, fdr: &Fdr, budget: &Budget) -> Result<Vec<LandmarkSequence>, Cut> {
+pub(crate) fn sequences(task: &GroundTask, fdr: &Fdr, budget: &Budget) -> Result<Vec<LandmarkSequence>, Stop> {
     let mut poll = Poll::new(budget);
-    let relaxation = Relaxation::new(fdr, Negatives::Ignored);
+    let relaxation = Relaxation::new(fdr, Negatives::Ignored, &mut poll)?;
     let landmarks = LandmarkSets::of(fdr, &relaxation, &mut poll)?;
     let mut sequences = Vec::new();
     for (object, goals) in clusters(task) {
@@ -127,7 +126,7 @@ impl Orders<'_> {
         !lost.is_empty() && self.every_achiever(a, needs)
     }
 
-    fn ordered(&self, props: &[Prop], poll: &mut Poll<'_>) -> Result<Vec<Prop>, Cut> {
+    fn ordered(&self, props: &[Prop], poll: &mut Poll<'_>) -> Result<Vec<Prop>, Stop> {
         let atom = |prop: Prop| self.task.atom(self.landmarks.task.fact(prop));
         let mut sorted: Vec<(usize, GroundAtom, Prop)> =
             props.iter().map(|&prop| (self.landmarks.of_prop(prop).len(), atom(prop), prop)).collect();
@@ -175,7 +174,7 @@ impl Orders<'_> {
         Ok(ordered)
     }
 
-    fn with_repetitions(&self, ordered: &[Prop], poll: &mut Poll<'_>) -> Result<Vec<Prop>, Cut> {
+    fn with_repetitions(&self, ordered: &[Prop], poll: &mut Poll<'_>) -> Result<Vec<Prop>, Stop> {
         let mut sequence: Vec<Prop> = Vec::with_capacity(ordered.len());
         // Whether each landmark was destroyed, by what every achiever of a later one deletes, since its last place.
         let mut destroyed = vec![false; ordered.len()];

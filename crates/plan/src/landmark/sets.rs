@@ -6,10 +6,10 @@
 //! become applicable.
 
 use std::collections::VecDeque;
+use typelift_model::Stop;
 
 use crate::fdr::{ActionIndex, Assignment, Fdr};
 use crate::poll::Poll;
-use crate::reach::Cut;
 use crate::relaxation::{Prop, Relaxation, RelaxedIndex};
 
 /// The landmarks of every proposition.
@@ -23,7 +23,7 @@ pub(crate) struct LandmarkSets<'a> {
 }
 
 impl<'a> LandmarkSets<'a> {
-    pub(crate) fn of(task: &'a Fdr, relaxation: &'a Relaxation, poll: &mut Poll<'_>) -> Result<Self, Cut> {
+    pub(crate) fn of(task: &'a Fdr, relaxation: &'a Relaxation, poll: &mut Poll<'_>) -> Result<Self, Stop> {
         let n = relaxation.len();
         let mut this = Self { task, relaxation, initial: vec![false; n], sets: vec![None; n] };
         for prop in relaxation.held(task, &task.init) {
@@ -55,7 +55,7 @@ impl<'a> LandmarkSets<'a> {
     }
 
     /// The relaxed actions that can be reached, each after one that makes it applicable.
-    fn in_order_of_reachability(&self, poll: &mut Poll<'_>) -> Result<Vec<RelaxedIndex>, Cut> {
+    fn in_order_of_reachability(&self, poll: &mut Poll<'_>) -> Result<Vec<RelaxedIndex>, Stop> {
         let preconditions = &self.relaxation.preconditions;
         let mut reached = self.initial.clone();
         let mut missing: Vec<u32> = preconditions.iter().map(|list| list.len() as u32).collect();

@@ -39,6 +39,7 @@ impl From<Stop> for Outcome {
     fn from(stop: Stop) -> Self {
         match stop {
             Stop::Time => Self::OutOfTime,
+            Stop::Memory => Self::OutOfMemory,
             Stop::Cancelled => Self::Cancelled,
         }
     }
