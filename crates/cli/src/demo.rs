@@ -180,6 +180,7 @@ fn learn_all(demonstrations: &[Demonstration]) -> Result<Learned, Failure> {
             goal: demonstration.goal.clone(),
             states,
             actions: demonstration.calls.iter().map(action).collect(),
+            ..Trace::default()
         });
     }
     let dataset = Dataset::new(&parser, traces);

@@ -70,7 +70,7 @@ struct NamesFile<'a> {
 }
 
 impl Export {
-    pub(crate) fn run(&self) -> Result<Exit, Failure> {
+    pub(crate) fn run(&self, quiet: bool) -> Result<Exit, Failure> {
         let Format::Pddl = self.format;
         let files = ["domain.pddl", "problem.pddl", "names.json"].map(|name| self.output.join(name));
         for file in &files {
@@ -78,7 +78,7 @@ impl Export {
         }
         let input = read_model_input(&self.model, self.types.as_ref())?;
         let (model, task) = match &self.task {
-            Some(path) => input.read_planning_task(path).map(|(model, task)| (model, Some(task)))?,
+            Some(path) => input.read_planning_task(path, quiet).map(|(model, task)| (model, Some(task)))?,
             None => (input.model().clone(), None),
         };
         let model = self.model_to_export(model, task.as_ref())?;

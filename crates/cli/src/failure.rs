@@ -76,6 +76,7 @@ impl From<ExportError> for Failure {
     fn from(error: ExportError) -> Self {
         match error {
             ExportError::Name(collision) => collision.into(),
+            ExportError::TooManyValues { .. } => Self::new(Exit::Unsupported, error),
             _ => Self::new(Exit::Unsupported, error).with_hint("--level adl needs none of this."),
         }
     }

@@ -8,6 +8,10 @@ use typelift::model::{ActionModel, ModelFileError, Symbol, Task};
 use typelift::world::{DomainFile, FileError, Parser, TaskFile, is_pddl, read_task, read_text, read_types};
 
 use crate::failure::{Failure, NOT_AS_WRITTEN};
+use crate::style::{HINT, WARNING};
+
+/// Warnings of files that are said.
+const MOST_WARNINGS: usize = 5;
 
 /// A model as it is read: learned, or stated in PDDL.
 #[derive(Debug)]
@@ -70,8 +74,8 @@ impl ModelInput {
         matches!(self, Self::Given(_))
     }
 
-    /// Reads a task file, or a problem of the domain.
-    pub(crate) fn read_task(&self, path: &Path) -> Result<TaskInput, Failure> {
+    /// Reads a task file, or a problem of the domain; warns unless it is to be `quiet`.
+    pub(crate) fn read_task(&self, path: &Path, quiet: bool) -> Result<TaskInput, Failure> {
         let starts_as_pddl = is_pddl(&read_start(path)?);
         match self {
             Self::Given(domain) if starts_as_pddl => Ok(TaskInput::Problem(Box::new(domain.read_problem(path)?))),
@@ -80,13 +84,19 @@ impl ModelInput {
                 let hint = "A PDDL problem needs its PDDL domain in the model's place; `typelift export` writes both.";
                 Err(error.with_hint(hint.to_owned()).into())
             }
-            _ => Ok(TaskInput::File(read_task(path)?)),
+            _ => {
+                let file = read_task(path)?;
+                if !quiet {
+                    warn(file.warnings.iter());
+                }
+                Ok(TaskInput::File(file))
+            }
         }
     }
 
     /// Reads a task that says from which state to plan: the model for it, and the task.
-    pub(crate) fn read_planning_task(self, path: &Path) -> Result<(ActionModel, Task), Failure> {
-        match self.read_task(path)? {
+    pub(crate) fn read_planning_task(self, path: &Path, quiet: bool) -> Result<(ActionModel, Task), Failure> {
+        match self.read_task(path, quiet)? {
             TaskInput::Problem(problem) => Ok(*problem),
             TaskInput::File(file) => {
                 let model = match self {
@@ -98,6 +108,20 @@ impl ModelInput {
                 Ok((model, task))
             }
         }
+    }
+}
+
+/// Says what is probably not meant in files; not all of it where there is much.
+pub(crate) fn warn<'w>(mut warnings: impl Iterator<Item = &'w FileError>) {
+    for warning in warnings.by_ref().take(MOST_WARNINGS) {
+        anstream::eprintln!("{WARNING}warning{WARNING:#}: {warning}");
+        if let Some(hint) = &warning.hint {
+            anstream::eprintln!("{HINT}hint{HINT:#}: {hint}");
+        }
+    }
+    let more = warnings.count();
+    if more > 0 {
+        anstream::eprintln!("{WARNING}warning{WARNING:#}: {more} more of this kind");
     }
 }
 

@@ -122,7 +122,7 @@ fn trace_bytes(demonstration: &Demonstration) -> Result<Vec<u8>, Failure> {
 fn task_file(task: &KitchenTask, seed: u64) -> Result<TaskFile, Failure> {
     let scenario = Some(task.scenario.clone());
     let state = Simulator::new().reset(&Reset { seed, scenario: scenario.clone() })?;
-    Ok(TaskFile { goal: task.goal.clone(), state: Some(state), scenario, seed: Some(seed) })
+    Ok(TaskFile { goal: task.goal.clone(), state: Some(state), scenario, seed: Some(seed), ..TaskFile::default() })
 }
 
 fn replay_all(traces: &[PathBuf]) -> Result<Exit, Failure> {

@@ -11,7 +11,7 @@ use typelift::world::{Dataset, ObjectTypes, read_dataset, read_hierarchy, write_
 
 use crate::exit::Exit;
 use crate::failure::{Failure, or_one_of};
-use crate::files::keep_inputs;
+use crate::files::{keep_inputs, warn};
 use crate::style::{HEAD, HINT, WARNING, count, wrapped};
 
 /// Learn actions from demonstrations
@@ -166,9 +166,10 @@ impl Learn {
         print_counts(out, dataset, learned)
     }
 
-    /// Warns of names to ignore that were never met, and of attributes that seem to flicker: most actions rest on a
-    /// single observation, and there would be fewer without some predicate.
+    /// Warns of what is probably not meant in the files, of names to ignore that were never met, and of attributes that
+    /// seem to flicker: most actions rest on a single observation, and there would be fewer without some predicate.
     fn warn(&self, dataset: &Dataset, learned: &Learned) {
+        warn(dataset.traces.iter().flat_map(|trace| &trace.warnings));
         for rule in &dataset.unmatched_ignores {
             anstream::eprintln!("{WARNING}warning{WARNING:#}: --ignore {rule}: there is no such attribute or relation");
             if let Some(source) = dataset.sources.get(rule) {

@@ -117,7 +117,7 @@ impl Plan {
     pub(crate) fn run(&self, clock: Clock, quiet: bool) -> Result<Exit, Failure> {
         let interrupt = Interrupt::install()?;
         let budget = self.limits.budget(clock, &interrupt);
-        let Begun { model, task, output, read, proposal } = self.begin_watched(clock, &budget)?;
+        let Begun { model, task, output, read, proposal } = self.begin_watched(clock, &budget, quiet)?;
         // Whoever waits for the answer need not wait for the memory to be freed.
         let mut proposal = match proposal {
             Ok(proposal) => ManuallyDrop::new(proposal),
@@ -172,25 +172,25 @@ impl Plan {
 
     /// Reads, grounds, and searches for the first plan. A watchdog ends the program if reading takes longer than allowed;
     /// somebody else's planner is ended by whom it was started.
-    fn begin_watched(&self, clock: Clock, budget: &Budget) -> Result<Begun, Failure> {
+    fn begin_watched(&self, clock: Clock, budget: &Budget, quiet: bool) -> Result<Begun, Failure> {
         let json = self.json;
         let limit = if self.planner.is_given() { None } else { self.limits.time() };
         let watchdog = Watchdog::start(clock, limit, move || {
             // There is nobody left to tell if printing fails.
             say_stop(Stop::Time, json, clock.elapsed()).unwrap_or(Exit::OutOfTime)
         });
-        let begun = self.begin(clock, budget);
+        let begun = self.begin(clock, budget, quiet);
         watchdog.call_off();
         begun
     }
 
-    fn begin(&self, clock: Clock, budget: &Budget) -> Result<Begun, Failure> {
+    fn begin(&self, clock: Clock, budget: &Budget, quiet: bool) -> Result<Begun, Failure> {
         keep_inputs(self.output.as_deref(), [&self.model, &self.task].into_iter().chain(&self.types))?;
         let input = read_model_input(&self.model, self.types.as_ref())?;
         let is_given = input.is_given();
         let default_output = is_given.then(|| PathBuf::from(DEFAULT_OUTPUT));
         let output = self.output.clone().or(default_output);
-        let (model, task) = input.read_planning_task(&self.task)?;
+        let (model, task) = input.read_planning_task(&self.task, quiet)?;
         let read = clock.elapsed();
         let options = self.options(self.imagine, is_given)?;
         let proposal = match propose(&model, &task, &Restrictions::default(), &options, budget) {

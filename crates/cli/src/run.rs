@@ -130,7 +130,7 @@ impl Run {
         let learned = Arc::new(input.model().clone());
         let mut tasks = Vec::with_capacity(self.tasks.len());
         for path in &self.tasks {
-            tasks.push(match input.read_task(path)? {
+            tasks.push(match input.read_task(path, quiet)? {
                 TaskInput::File(file) => (path, Arc::clone(&learned), self.reset(&file), Task::from(file.goal)),
                 TaskInput::Problem(problem) => (path, Arc::new(problem.0), self.reset_to_problem(path), problem.1),
             });

@@ -74,9 +74,9 @@ struct PlanFile<'a> {
 }
 
 impl Validate {
-    pub(crate) fn run(&self) -> Result<Exit, Failure> {
+    pub(crate) fn run(&self, quiet: bool) -> Result<Exit, Failure> {
         let input = read_model_input(&self.model, self.types.as_ref())?;
-        let (model, task) = input.read_planning_task(&self.task)?;
+        let (model, task) = input.read_planning_task(&self.task, quiet)?;
         let model = match self.imagine {
             true => imagine(&model, &task, &Restrictions::default(), &Default::default(), &Budget::unlimited())?
                 .added_to(&model),

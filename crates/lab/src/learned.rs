@@ -21,6 +21,7 @@ pub fn dataset_of(demonstrations: &[Demonstration]) -> Dataset {
             .iter()
             .map(|call| TraceAction { call: call.clone(), executed: None, reason: None, time: None })
             .collect(),
+        ..Trace::default()
     };
     let traces: Vec<Trace> = demonstrations.iter().map(trace).collect();
     Dataset::new(&parser, traces)

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use typelift_model::{GroundAtom, GroundCall, Hierarchy, ParseConfig, State, Symbol, Witness};
 
-use crate::Parser;
+use crate::{FileError, Parser};
 
 /// One action of a trace.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,6 +32,8 @@ pub struct Trace {
     pub states: Vec<State>,
     /// The actions.
     pub actions: Vec<TraceAction>,
+    /// What is probably not meant in the file.
+    pub warnings: Vec<FileError>,
 }
 
 /// One observed step (paper: (s, a_d, s')).

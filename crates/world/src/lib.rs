@@ -4,6 +4,7 @@
 
 mod dataset;
 mod dataset_file;
+mod entity_line;
 mod environment;
 mod file_error;
 mod hierarchy_file;

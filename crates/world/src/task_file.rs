@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 use typelift_model::{GroundAtom, State, Symbol, Task, nearest};
 
+use crate::entity_line::UnreadKeys;
 use crate::trace_line::SceneLine;
 use crate::{FileError, ParseError, Parser, Scene, json, read_text, write_file};
 
@@ -24,6 +25,8 @@ pub struct TaskFile {
     pub scenario: Option<serde_json::Value>,
     /// The seed of whatever the environment leaves to chance.
     pub seed: Option<u64>,
+    /// What is probably not meant in the file.
+    pub warnings: Vec<FileError>,
 }
 
 /// Why a goal is not one for this model and state.
@@ -210,8 +213,12 @@ pub fn read_task(path: &Path) -> Result<TaskFile, FileError> {
         }
     }
     let ReadTask { goal, state, scenario, seed } = serde_json::from_str(&text).map_err(json)?;
+    let mut unread = UnreadKeys::default();
+    if let Some(state) = &state {
+        unread.note(path, None, state);
+    }
     let state = state.map(SceneLine::scene).transpose().map_err(|what| FileError::new(path, what))?;
-    Ok(TaskFile { goal, state, scenario, seed })
+    Ok(TaskFile { goal, state, scenario, seed, warnings: unread.warnings })
 }
 
 /// Writes a task file.

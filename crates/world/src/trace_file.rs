@@ -7,6 +7,7 @@ use std::path::Path;
 
 use typelift_model::{GroundAtom, HashMap, State, Symbol, SymbolPool, TypeId, check_name, did_you_mean};
 
+use crate::entity_line::UnreadKeys;
 use crate::line_reader::{LINE_LIMIT, Line, LineReader};
 use crate::trace_line::{BodyLine, HeaderLine, TRACE_FORMAT};
 use crate::{FileError, Parser, Scene, Trace, TraceAction, json};
@@ -44,6 +45,7 @@ pub struct TraceReader<R> {
     header: TraceHeader,
     last: Last,
     done: bool,
+    unread: UnreadKeys,
 }
 
 impl TraceReader<BufReader<File>> {
@@ -82,7 +84,13 @@ impl<R: BufRead> TraceReader<R> {
                 .map_err(|(what, hint)| FileError::at_line(path, 1, what).with_hint(hint))?,
         }
         let HeaderLine { task, goal } = parse(path, &line)?;
-        Ok(Self { lines, header: TraceHeader { task, goal }, last: Last::Header, done: false })
+        Ok(Self {
+            lines,
+            header: TraceHeader { task, goal },
+            last: Last::Header,
+            done: false,
+            unread: UnreadKeys::default(),
+        })
     }
 
     /// The header.
@@ -93,6 +101,11 @@ impl<R: BufRead> TraceReader<R> {
     /// The number of the line read last, from 1.
     pub fn line(&self) -> usize {
         self.lines.line()
+    }
+
+    /// What is probably not meant in the lines read so far.
+    pub fn warnings(&self) -> &[FileError] {
+        &self.unread.warnings
     }
 
     fn next_item(&mut self) -> Result<Option<TraceItem>, FileError> {
@@ -122,7 +135,10 @@ impl<R: BufRead> TraceReader<R> {
         }
         let body: BodyLine = parse(&path, &line)?;
         let item = match (body.state, body.action) {
-            (Some(state), None) => TraceItem::State(state.scene().map_err(error)?),
+            (Some(state), None) => {
+                self.unread.note(&path, Some(number), &state);
+                TraceItem::State(state.scene().map_err(error)?)
+            }
             (None, Some(call)) => {
                 let BodyLine { executed, reason, t: time, .. } = body;
                 TraceItem::Action(TraceAction { call, executed, reason, time })
@@ -244,6 +260,7 @@ pub(crate) fn trace_from<R: BufRead>(
             }
         }
     }
+    trace.warnings = reader.unread.warnings;
     Ok(trace)
 }
 

@@ -6,7 +6,8 @@ use std::io::{self, Write};
 use serde::{Deserialize, Serialize};
 use typelift_model::{GroundAtom, GroundCall, Symbol};
 
-use crate::{Entity, Scene, Snapshot, TraceAction, TraceHeader, json};
+use crate::entity_line::EntityLine;
+use crate::{Scene, Snapshot, TraceAction, TraceHeader, json};
 
 /// The format that this version reads and writes.
 pub const TRACE_FORMAT: &str = "trace/1";
@@ -130,7 +131,7 @@ pub(crate) struct BodyLine {
 #[derive(Deserialize)]
 #[serde(expecting = "a state")]
 pub(crate) struct SceneLine {
-    entities: Option<Vec<Entity>>,
+    pub(crate) entities: Option<Vec<EntityLine>>,
     #[serde(default)]
     objects: Option<Objects>,
     #[serde(default)]
@@ -147,7 +148,10 @@ impl SceneLine {
     /// The scene, or what is wrong with it.
     pub(crate) fn scene(self) -> Result<Scene, &'static str> {
         match (self.entities, self.objects) {
-            (Some(entities), None) => Ok(Scene::Snapshot(Snapshot { entities })),
+            (Some(entities), None) => {
+                let entities = entities.into_iter().map(|line| line.entity).collect();
+                Ok(Scene::Snapshot(Snapshot { entities }))
+            }
             (None, Some(Objects(objects))) => Ok(Scene::Symbolic { objects, atoms: self.atoms, unknown: self.unknown }),
             (None, None) => Err("this state has neither `entities` nor `objects`"),
             (Some(_), Some(_)) => Err("this state has both `entities` and `objects`"),

@@ -131,7 +131,7 @@ prop_compose! {
     ) -> TaskFile {
         let atoms = goal.iter().cloned().collect();
         let state = objects.map(|objects| Scene::Symbolic { objects, atoms, unknown: [].into() });
-        TaskFile { goal, state, scenario, seed }
+        TaskFile { goal, state, scenario, seed, ..TaskFile::default() }
     }
 }
 

@@ -150,6 +150,24 @@ fn what_is_impossible_is_refused() {
 }
 
 #[test]
+fn a_key_that_nothing_reads_is_noted_if_it_is_nearly_one_that_is_read() {
+    let state =
+        |key: &str| format!("{{\"state\":{{\"entities\":[{{\"id\":\"a\",\"type\":\"block\",\"{key}\":{{}}}}]}}}}");
+    let warnings = |key: &str| {
+        let (first, second) = (state(key), state(key));
+        read(&[HEADER, &first, ACTION, &second]).expect("a trace").warnings
+    };
+    for key in ["attributes", "relations", "pose", "name", "idx", "types", "confidence"] {
+        assert_eq!(warnings(key), [], "{key}");
+    }
+    for (key, known) in [("relation", "relations"), ("atributes", "attributes"), ("Attributes", "attributes")] {
+        let [warning] = &warnings(key)[..] else { panic!("{key}: it is noted once") };
+        assert!(warning.to_string().ends_with(&format!(":2: entity a: `{key}` is not read")), "{warning}");
+        assert_eq!(warning.hint, Some(format!("Did you mean `{known}`?")));
+    }
+}
+
+#[test]
 fn nothing_comes_after_an_error() {
     let text = format!("{HEADER}\n{ACTION}\n{STATE}\n");
     let mut reader = TraceReader::new(Path::new("a"), text.as_bytes()).expect("a header");

@@ -176,3 +176,31 @@ fn what_is_unusual_but_right() {
     assert!(learns("a large number", numbers.join("\n") + "\n") == expected);
     learns("names in other scripts", good.map(|line| line.replace("box_1", "кутия_1")).join("\n"));
 }
+
+#[test]
+fn keys_that_are_nearly_known() {
+    let folder = folder();
+    let mut transcript = Transcript::default();
+    let misspelled = [HEADER, SHUT, ACT, OPEN].join("\n").replace("relations", "relation");
+    folder.write("trace.jsonl", misspelled.replace(r#""attributes":{"open""#, r#""atributes":{"open""#));
+    transcript.add("misspelled", &folder.run(LEARN));
+    transcript.add("misspelled, quiet", &folder.run(&format!("{LEARN} -q")));
+    let pose = r#""type":"box","pose":[0,1],"#;
+    folder.write("trace.jsonl", [HEADER, SHUT, ACT, OPEN].join("\n").replace(r#""type":"box","#, pose));
+    transcript.add("not known at all", &folder.run(LEARN));
+    let state = &SHUT[..SHUT.len() - 1].replace("attributes", "Attributes")[1..];
+    folder.write("task.json", format!(r#"{{"format":"task/1","goal":["open(box_1)"],{state}}}"#));
+    transcript.add("in a task", &folder.run("plan model.json task.json"));
+    insta::assert_snapshot!(transcript.0);
+}
+
+#[test]
+fn many_warnings_are_not_all_said() {
+    let folder = folder();
+    let misspelled = [HEADER, SHUT, ACT, OPEN].join("\n").replace("relations", "relation");
+    std::fs::create_dir(folder.path("shown")).expect("made");
+    for number in 0..7 {
+        folder.write(&format!("shown/{number}.jsonl"), &misspelled);
+    }
+    insta::assert_snapshot!(folder.run("learn shown --types types.pddl -o model.json").err);
+}

@@ -53,7 +53,7 @@ impl Writer<'_> {
         let mut effects: Vec<PddlEffect> =
             action.effects.iter().map(|effect| self.effect(action, effect, &variables)).collect();
         if self.has_costs() {
-            effects.extend(self.increases(&action.cost, &variables));
+            effects.push(self.increase(&action.cost, &variables));
         }
         Action {
             name: pddl(&self.names.actions, &action.name),
@@ -112,10 +112,9 @@ impl Writer<'_> {
         written
     }
 
-    /// What an action adds to the total cost: the fixed part, unless it is nothing beside functions, and each function.
-    fn increases(&self, cost: &Cost, variables: &[Symbol]) -> Vec<PddlEffect> {
-        let fixed = (cost.fixed > 0 || cost.functions.is_empty()).then_some(Amount::Number(cost.fixed));
-        let functions = cost.functions.iter().map(|f| Amount::Function(self.atom(&self.names.functions, f, variables)));
-        fixed.into_iter().chain(functions).map(PddlEffect::Increase).collect()
+    /// What an action adds to the total cost: its only function, if there is one, else a number.
+    fn increase(&self, cost: &Cost, variables: &[Symbol]) -> PddlEffect {
+        let function = cost.functions.first().map(|f| Amount::Function(self.atom(&self.names.functions, f, variables)));
+        PddlEffect::Increase(function.unwrap_or(Amount::Number(cost.fixed)))
     }
 }

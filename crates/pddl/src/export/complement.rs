@@ -6,17 +6,17 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use typelift_model::{
-    ActionModel, ActionSchema, Atom, EQUALS, Effect, GroundAtom, Hierarchy, LiftedAtom, Literal, Parameter, PddlNames,
-    Symbol, Task, Term, TypeId,
+    ActionModel, ActionSchema, Atom, EQUALS, Effect, GroundAtom, Hierarchy, LiftedAtom, Literal, Parameter, Symbol,
+    Task, Term, TypeId,
 };
 
 use super::argument_types::constants;
-use super::names::predicates;
+use super::names::{folded, predicates, unused};
 use super::{ExportError, MOST_FACTS};
 
-/// What may stand at an argument of a negative use.
+/// What may stand at an argument.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-enum Place {
+pub(super) enum Place {
     /// An object of this type.
     Of(TypeId),
     /// This object.
@@ -189,7 +189,11 @@ fn places(atom: &LiftedAtom, parameters: &[Parameter]) -> Vec<Place> {
 }
 
 /// The objects that fit each place; none are listed for one that repeats another.
-fn choices<'o>(places: &[Place], objects: &'o BTreeMap<Symbol, TypeId>, hierarchy: &Hierarchy) -> Vec<Vec<&'o Symbol>> {
+pub(super) fn choices<'o>(
+    places: &[Place],
+    objects: &'o BTreeMap<Symbol, TypeId>,
+    hierarchy: &Hierarchy,
+) -> Vec<Vec<&'o Symbol>> {
     let fitting = |place: &Place| match place {
         Place::Of(ty) => objects.iter().filter(|(_, of)| hierarchy.is_a(**of, *ty)).map(|(name, _)| name).collect(),
         Place::Object(name) => objects.get_key_value(name).into_iter().map(|(name, _)| name).collect(),
@@ -199,7 +203,8 @@ fn choices<'o>(places: &[Place], objects: &'o BTreeMap<Symbol, TypeId>, hierarch
     places.iter().map(fitting).collect()
 }
 
-fn for_each_tuple(
+/// Calls `each` with every choice of these.
+pub(super) fn for_each_tuple(
     places: &[Place],
     choices: &[Vec<&Symbol>],
     chosen: &mut Vec<Symbol>,
@@ -243,21 +248,4 @@ fn may_be_same(action: &ActionSchema, added: &LiftedAtom, deleted: &LiftedAtom, 
         && added.args.len() == deleted.args.len()
         && added.args.iter().zip(&deleted.args).all(may)
         && !excluded
-}
-
-fn folded(name: &Symbol) -> Symbol {
-    // One name cannot collide with itself.
-    PddlNames::fold("predicate", [name]).ok().and_then(|names| names.pddl(name.as_str()).cloned()).unwrap_or_default()
-}
-
-/// This name, numbered if PDDL would take it for one that is in use.
-fn unused(base: &str, used: &mut BTreeSet<Symbol>) -> Symbol {
-    let mut name = Symbol::new(base);
-    for number in 2.. {
-        if used.insert(folded(&name)) {
-            break;
-        }
-        name = Symbol::from(format!("{base}-{number}"));
-    }
-    name
 }

@@ -8,6 +8,7 @@
 mod action;
 mod argument_types;
 mod complement;
+mod cost;
 mod derived;
 mod domain;
 mod exclusive;
@@ -26,7 +27,7 @@ use crate::{Domain, Problem};
 
 pub use names::{ExportNames, UnknownName};
 
-/// How many facts may be added to an initial state at [`Level::Strips`].
+/// How many facts may be added to an initial state at [`Level::Strips`], and how many values of costs that are sums.
 pub const MOST_FACTS: u64 = 5_000_000;
 
 /// How much of PDDL the planner knows.
@@ -85,6 +86,22 @@ pub enum ExportError {
         /// How many there are, at most.
         facts: u64,
     },
+    /// More than [`MOST_FACTS`] values of costs that are sums would have to be written.
+    #[error("the cost of `{action}` is a sum, whose value for every choice of objects is written down, here {values}")]
+    TooManyValues {
+        /// The action.
+        action: Symbol,
+        /// How many there are, at most.
+        values: u64,
+    },
+}
+
+/// A model and a task, rewritten.
+struct Compiled {
+    model: ActionModel,
+    task: Option<Task>,
+    /// What was done, a line each.
+    notes: Vec<String>,
 }
 
 /// The model as a domain, and the task, if there is one, as a problem. Equal arguments give equal results.
@@ -94,11 +111,15 @@ pub enum ExportError {
 pub fn export(model: &ActionModel, task: Option<&Task>, options: &ExportOptions) -> Result<Exported, ExportError> {
     let mut notes = Vec::new();
     let (mut model, mut task) = (Cow::Borrowed(model), task.map(Cow::Borrowed));
+    let mut take = |compiled: Compiled| {
+        notes.extend(compiled.notes);
+        (Cow::Owned(compiled.model), compiled.task.map(Cow::Owned))
+    };
     if options.level == Level::Strips {
-        let compiled = strips::compile(&model, task.as_deref())?;
-        model = Cow::Owned(compiled.model);
-        task = compiled.task.map(Cow::Owned);
-        notes = compiled.notes;
+        (model, task) = take(strips::compile(&model, task.as_deref())?);
+    }
+    if cost::has_sums(&model) {
+        (model, task) = take(cost::compile(&model, task.as_deref())?);
     }
     let (model, task) = (model.as_ref(), task.as_deref());
     let names = ExportNames::of(model, task, options)?;

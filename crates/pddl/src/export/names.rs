@@ -99,3 +99,21 @@ pub(super) fn functions(model: &ActionModel) -> BTreeMap<&Symbol, usize> {
     let functions = model.actions.iter().flat_map(|action| &action.cost.functions);
     functions.map(|function| (&function.predicate, function.args.len())).collect()
 }
+
+/// How PDDL spells a name.
+pub(super) fn folded(name: &Symbol) -> Symbol {
+    // One name cannot collide with itself.
+    PddlNames::fold("predicate", [name]).ok().and_then(|names| names.pddl(name.as_str()).cloned()).unwrap_or_default()
+}
+
+/// This name, numbered if PDDL would take it for one that is in use.
+pub(super) fn unused(base: &str, used: &mut BTreeSet<Symbol>) -> Symbol {
+    let mut name = Symbol::new(base);
+    for number in 2.. {
+        if used.insert(folded(&name)) {
+            break;
+        }
+        name = Symbol::from(format!("{base}-{number}"));
+    }
+    name
+}

@@ -10,17 +10,9 @@
 
 use typelift_model::{ActionModel, Cost, LiftedAtom, Literal, Symbol, Task, Term};
 
-use super::ExportError;
 use super::complement::Complements;
 use super::exclusive::without_implied;
-
-/// A model and a task in STRIPS.
-pub(super) struct Compiled {
-    pub(super) model: ActionModel,
-    pub(super) task: Option<Task>,
-    /// What was done, a line each.
-    pub(super) notes: Vec<String>,
-}
+use super::{Compiled, ExportError};
 
 pub(super) fn compile(model: &ActionModel, task: Option<&Task>) -> Result<Compiled, ExportError> {
     refuse_beyond(model)?;

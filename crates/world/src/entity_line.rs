@@ -1,0 +1,93 @@
+//! Entities as files have them. A key that nothing reads may stand there, but one that is nearly the name of what is
+//! read is noted: left out, relations would be taken for none.
+
+use std::collections::BTreeSet;
+use std::fmt;
+use std::path::Path;
+
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{Deserialize, DeserializeSeed, Deserializer, IntoDeserializer, MapAccess, Visitor};
+use typelift_model::{Symbol, did_you_mean};
+
+use crate::trace_line::SceneLine;
+use crate::{Entity, FileError};
+
+/// The keys that an entity must have.
+const REQUIRED: [&str; 2] = ["id", "type"];
+
+/// Those that it may have.
+const OPTIONAL: [&str; 2] = ["attributes", "relations"];
+
+/// An entity, and its keys that nothing reads.
+#[derive(Debug)]
+pub(crate) struct EntityLine {
+    pub(crate) entity: Entity,
+    unread: Vec<Symbol>,
+}
+
+impl<'de> Deserialize<'de> for EntityLine {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_map(EntityVisitor)
+    }
+}
+
+struct EntityVisitor;
+
+impl<'de> Visitor<'de> for EntityVisitor {
+    type Value = EntityLine;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("an entity")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, access: A) -> Result<EntityLine, A::Error> {
+        let mut unread = Vec::new();
+        let watched = Watched { access, unread: &mut unread };
+        let entity = Entity::deserialize(MapAccessDeserializer::new(watched))?;
+        Ok(EntityLine { entity, unread })
+    }
+}
+
+/// An object whose keys are watched while it is read.
+struct Watched<'u, A> {
+    access: A,
+    unread: &'u mut Vec<Symbol>,
+}
+
+impl<'de, A: MapAccess<'de>> MapAccess<'de> for Watched<'_, A> {
+    type Error = A::Error;
+
+    fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Result<Option<K::Value>, A::Error> {
+        let Some(key) = self.access.next_key::<Symbol>()? else { return Ok(None) };
+        let found = seed.deserialize(key.as_str().into_deserializer())?;
+        if !REQUIRED.iter().chain(&OPTIONAL).any(|known| key == **known) {
+            self.unread.push(key);
+        }
+        Ok(Some(found))
+    }
+
+    fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Result<V::Value, A::Error> {
+        self.access.next_value_seed(seed)
+    }
+}
+
+/// What is to be said of the keys that nothing reads in a file.
+#[derive(Debug, Default)]
+pub(crate) struct UnreadKeys {
+    seen: BTreeSet<Symbol>,
+    pub(crate) warnings: Vec<FileError>,
+}
+
+impl UnreadKeys {
+    /// Notes those of a scene's entities, each key where it is met first.
+    pub(crate) fn note(&mut self, file: &Path, line: Option<usize>, scene: &SceneLine) {
+        for EntityLine { entity, unread } in scene.entities.iter().flatten() {
+            for key in unread.iter().filter(|key| self.seen.insert((*key).clone())) {
+                let Some(question) = did_you_mean(key.as_str(), &OPTIONAL.map(Symbol::new)) else { continue };
+                let what = format!("entity {}: `{key}` is not read", entity.id);
+                let warning = line.map_or_else(|| FileError::new(file, &what), |l| FileError::at_line(file, l, &what));
+                self.warnings.push(warning.with_hint(question));
+            }
+        }
+    }
+}
