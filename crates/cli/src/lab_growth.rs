@@ -21,9 +21,9 @@ use crate::style::{HEAD, count, wrapped};
   typelift lab growth -o G
   typelift lab growth --quick -o Q
 
-Plans with 32 to 10,000 objects in a kitchen with a larger storeroom, and with
-up to 1,000 where tools and plates grow too; with 1 to 20 goal foods; learns from 100 to
-1,000,000 transitions. Each point is measured in a process of its own, one at a
+Plans with 32 to 10,000 objects, in a kitchen with a larger storeroom and where
+tools and plates grow too; with 1 to 20 goal foods; learns from 100 to 1,000,000
+transitions. Each point is measured in a process of its own, one at a
 time. Writes growth.csv, growth_fits.csv, growth.json and a log-log plot of each
 quantity with its exponent. With the default limits it takes some ten minutes.")]
 pub(crate) struct LabGrowth {

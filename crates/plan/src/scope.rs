@@ -9,7 +9,7 @@
 //! - that are the first k of their class, by name, with what is close beside each. Of one class are objects of one type of
 //!   which the initial atoms and the values say the same but for the other objects' names; their types count.
 //!
-//! A level that has more than a quarter of the objects is left out: it would cost as much as all of them. What is found
+//! A level that has more than two thirds of the objects is left out: it would cost as much as all of them. What is found
 //! with fewer objects is found with all, since a ground action is the same whatever objects there are besides; so this is
 //! done only where that is so: not where something holds, or happens, for all objects. That nothing is found with fewer
 //! objects says nothing.
@@ -27,8 +27,8 @@ use crate::symmetry::constants;
 /// and by others.
 pub(crate) const FEW_OBJECTS: usize = 50;
 pub(crate) const FEW_OBJECTS_LAZILY: usize = 1_000;
-/// A level has at most one in so many of the objects.
-const SHARE: usize = 2;
+/// A level has at most so many of so many objects.
+const SHARE: (usize, usize) = (2, 3);
 /// What is beside more than so many others leads nowhere.
 const MANY_NEIGHBOURS: usize = 16;
 /// What is beside at most so many others brings them with it.
@@ -131,7 +131,7 @@ impl Scopes {
             }
         }
         let size = kept.iter().filter(|kept| **kept).count();
-        (size * SHARE <= kept.len()).then_some((level, kept))
+        (size * SHARE.1 <= kept.len() * SHARE.0).then_some((level, kept))
     }
 }
 

@@ -54,10 +54,11 @@ fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     }
     let (temporary, mut file) = create_beside(&target)?;
     let written = file.write_all(bytes).and_then(|()| match existing {
-        Some(data) => file.set_permissions(data.permissions()),
+        // The old content is given up only when the new is on the disk; that takes milliseconds.
+        Some(data) => file.set_permissions(data.permissions()).and_then(|()| file.sync_all()),
         None => Ok(()),
     });
-    let done = written.and_then(|()| file.sync_all()).and_then(|()| fs::rename(&temporary, &target));
+    let done = written.and_then(|()| fs::rename(&temporary, &target));
     if done.is_err() {
         // The first error is the one to report.
         let _ = fs::remove_file(&temporary);
