@@ -87,7 +87,7 @@ impl Proposal {
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum ProposeError {
     /// The budget ended grounding.
-    #[error("{0} while grounding")]
+    #[error("{0} before the search")]
     Stopped(#[from] Stop),
     /// The planner's plan does not survive the check: a defect of the planner.
     #[error("the planner's plan is not valid: {error}")]

@@ -63,6 +63,19 @@ impl Bridge {
         options: Options,
         stderr: impl FnMut(&str) + Send + 'static,
     ) -> Result<Self, BridgeError> {
+        Self::spawn_stoppable(command_line, options, stderr, |_| ())
+    }
+
+    /// The same, with a handle for whoever may want to stop it before it has said who it is.
+    ///
+    /// # Errors
+    /// [`BridgeError`] if it cannot be started, or is not an environment, or was stopped.
+    pub fn spawn_stoppable(
+        command_line: &str,
+        options: Options,
+        stderr: impl FnMut(&str) + Send + 'static,
+        started: impl FnOnce(Stopper),
+    ) -> Result<Self, BridgeError> {
         let wrong = |problem| {
             BridgeError::new(command_line, Failure::CommandLine { command: command_line.to_owned(), problem })
         };
@@ -87,6 +100,7 @@ impl Bridge {
             unanswered: BTreeSet::new(),
             over: None,
         };
+        started(bridge.stopper());
         bridge.hello()?;
         Ok(bridge)
     }

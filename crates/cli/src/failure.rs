@@ -84,7 +84,7 @@ impl From<ExportError> for Failure {
 
 impl From<Stop> for Failure {
     fn from(stop: Stop) -> Self {
-        Self::new(stop_exit(stop), format!("{stop} while grounding"))
+        Self::new(stop_exit(stop), format!("{stop} before the search"))
     }
 }
 

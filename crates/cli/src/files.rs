@@ -8,6 +8,7 @@ use typelift::model::{ActionModel, ModelFileError, Symbol, Task};
 use typelift::world::{DomainFile, FileError, Parser, TaskFile, is_pddl, read_task, read_text, read_types};
 
 use crate::failure::{Failure, NOT_AS_WRITTEN};
+use crate::pddl_domains::declared_name;
 use crate::style::{HINT, WARNING};
 
 /// Warnings of files that are said.
@@ -138,8 +139,11 @@ pub(crate) fn task_name(path: &Path) -> String {
     path.file_stem().map_or_else(|| path.display().to_string(), |stem| stem.to_string_lossy().into_owned())
 }
 
-/// A name for a domain: the model file's, as far as PDDL allows it.
+/// A name for a domain: that of the domain in the file, or else the file's, as far as PDDL allows it.
 pub(crate) fn domain_name(path: &Path) -> Symbol {
+    if let Some(name) = declared_name(path) {
+        return Symbol::from(name);
+    }
     let stem = path.file_stem().map(|stem| stem.to_string_lossy().to_lowercase()).unwrap_or_default();
     let name: String = stem.chars().map(|c| if c.is_ascii_alphanumeric() || c == '-' { c } else { '-' }).collect();
     Symbol::from(if name.starts_with(|c: char| c.is_ascii_alphabetic()) { name } else { format!("model-{name}") })

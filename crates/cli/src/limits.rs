@@ -24,7 +24,7 @@ impl Clock {
 }
 
 /// Limits that every command spells alike.
-#[derive(Debug, Clone, Copy, clap::Args)]
+#[derive(Debug, Clone, Copy, Default, clap::Args)]
 #[command(next_help_heading = "Limits")]
 pub(crate) struct Limits {
     /// Stop after this time, reading included: seconds, or 500ms, 30s, 5m
@@ -116,11 +116,16 @@ impl Limits {
         self.time_limit
     }
 
+    /// The bytes of memory allowed, if they are limited.
+    pub(crate) fn bytes(self) -> Option<u64> {
+        self.memory_limit.map(|megabytes| megabytes.saturating_mul(1 << 20))
+    }
+
     /// The budget that these limits leave, counted from the program's start.
     pub(crate) fn budget(self, clock: Clock, interrupt: &Interrupt) -> Budget {
         let interrupt = interrupt.clone();
         let limit = self.time_limit;
-        let bytes = self.memory_limit.map(|megabytes| megabytes.saturating_mul(1 << 20));
+        let bytes = self.bytes();
         let meter = MemoryMeter::default();
         Budget {
             expansions: self.max_expansions,
@@ -146,6 +151,11 @@ fn resident() -> Option<u64> {
     memory_stats::memory_stats().map(|stats| stats.physical_mem as u64)
 }
 
+/// Whether the program holds more than so many bytes of memory, as far as the system tells.
+pub(crate) fn holds_more_than(bytes: u64) -> bool {
+    resident().is_some_and(|resident| resident > bytes)
+}
+
 /// Asks the system how much memory the program holds: what an algorithm counts for itself leaves out what was given back
 /// and may not be used again.
 #[derive(Default)]
@@ -165,8 +175,8 @@ impl MemoryMeter {
             return false;
         }
         self.next.store(now + Self::INTERVAL, Ordering::Relaxed);
-        // A table that grows is there twice for a while.
-        resident().is_some_and(|resident| resident > bytes - bytes / 32)
+        // Some more is held before it is asked again, and a table that grows is there twice for a while.
+        holds_more_than(bytes - bytes / 32)
     }
 }
 

@@ -89,7 +89,7 @@ impl Domains {
             let mut files: Vec<PathBuf> =
                 entries.filter(|path| path.extension().is_some_and(|ending| ending == "pddl")).collect();
             files.sort();
-            let named = files.into_iter().filter_map(|path| domain_name(&path).map(|name| (path, name)));
+            let named = files.into_iter().filter_map(|path| declared_name(&path).map(|name| (path, name)));
             named.collect()
         })
     }
@@ -103,7 +103,7 @@ fn folder_above(folder: &Path) -> PathBuf {
 }
 
 /// The name of the domain in a file, in lower case, if there is one.
-fn domain_name(path: &Path) -> Option<String> {
+pub(crate) fn declared_name(path: &Path) -> Option<String> {
     let text = read_text(path).ok()?;
     let document = Document::read(&text).ok()?;
     let definition = Definition::only(&document, DefinitionKind::Domain).ok()?;

@@ -170,14 +170,14 @@ impl Plan {
         Ok(exit)
     }
 
-    /// Reads, grounds, and searches for the first plan. A watchdog ends the program if reading takes longer than allowed;
+    /// Reads, grounds, and searches for the first plan. A watchdog ends the program if reading takes more than is allowed;
     /// somebody else's planner is ended by whom it was started.
     fn begin_watched(&self, clock: Clock, budget: &Budget, quiet: bool) -> Result<Begun, Failure> {
         let json = self.json;
-        let limit = if self.planner.is_given() { None } else { self.limits.time() };
-        let watchdog = Watchdog::start(clock, limit, move || {
+        let limits = if self.planner.is_given() { Limits::default() } else { self.limits };
+        let watchdog = Watchdog::start(clock, limits, move |stop| {
             // There is nobody left to tell if printing fails.
-            say_stop(Stop::Time, json, clock.elapsed()).unwrap_or(Exit::OutOfTime)
+            say_stop(stop, json, clock.elapsed()).unwrap_or(stop_exit(stop))
         });
         let begun = self.begin(clock, budget, quiet);
         watchdog.call_off();
@@ -309,9 +309,9 @@ impl Plan {
 fn say_stop(stop: Stop, json: bool, took: Duration) -> Result<Exit, Failure> {
     let exit = stop_exit(stop);
     let (outcome, why) = match exit {
-        Exit::OutOfMemory => ("out_of_memory", "out of memory while grounding"),
-        Exit::OutOfTime => ("out_of_time", "out of time while grounding"),
-        _ => ("stopped", "stopped while grounding"),
+        Exit::OutOfMemory => ("out_of_memory", "out of memory before the search"),
+        Exit::OutOfTime => ("out_of_time", "out of time before the search"),
+        _ => ("stopped", "stopped before the search"),
     };
     if json {
         let answer = Answer { outcome, seconds: took.as_secs_f64(), ..Answer::default() };

@@ -1,9 +1,11 @@
 //! `typelift run`.
 
 use std::fs::File;
-use std::io::{BufRead, BufWriter, IsTerminal, Write};
+use std::io::{BufWriter, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread;
 use std::time::Duration;
 
 use clap::ValueEnum;
@@ -27,6 +29,9 @@ use crate::style::HEAD;
 
 /// Expansions of one search, unless the user says otherwise: an agent that acts must not think for ever.
 const EXPANSIONS: u64 = 200_000;
+
+/// How often it is looked whether Ctrl-C was pressed while an answer is waited for.
+const ANSWER_INTERVAL: Duration = Duration::from_millis(50);
 
 /// Carry out tasks in an environment
 #[derive(Debug, clap::Args)]
@@ -207,11 +212,15 @@ impl Run {
                 Operation::Close => limits.close = limit,
             }
         }
-        let bridge = Bridge::spawn(command, limits, |line| anstream::eprintln!("{line}"));
-        let bridge = bridge.map_err(WorldError::from)?;
-        let stopper = bridge.stopper();
-        interrupt.on_raised(move || stopper.stop());
-        Ok(Box::new(bridge))
+        let stderr = |line: &str| anstream::eprintln!("{line}");
+        let bridge = Bridge::spawn_stoppable(command, limits, stderr, |stopper| {
+            interrupt.on_raised(move || stopper.stop());
+        });
+        match bridge {
+            Ok(bridge) => Ok(Box::new(bridge)),
+            Err(_) if interrupt.is_set() => Err(Failure::new(Exit::Interrupted, "stopped")),
+            Err(error) => Err(WorldError::from(error).into()),
+        }
     }
 
     fn options(&self, is_given: bool) -> Result<Options, Failure> {
@@ -254,14 +263,12 @@ impl Run {
             return Confirmation::Approve;
         }
         anstream::eprint!("{}", numbered_steps(plan, &model.hierarchy));
-        let mut input = std::io::stdin().lock();
         loop {
             anstream::eprint!("execute? [y]es, [n]o, not step N (n N), [s]top: ");
-            let mut answer = String::new();
-            if !matches!(input.read_line(&mut answer), Ok(read) if read > 0) || interrupt.is_set() {
+            let Some(answer) = answer(interrupt) else {
                 anstream::eprintln!("no answer: stopped");
                 return Confirmation::Stop;
-            }
+            };
             if !std::io::stdin().is_terminal() {
                 anstream::eprintln!("{}", answer.trim());
             }
@@ -279,6 +286,26 @@ impl Run {
                 }
                 _ => {}
             }
+        }
+    }
+}
+
+/// A line from whoever is at the terminal. None at its end, or as soon as Ctrl-C is pressed: a line is waited for in
+/// another thread, since nothing else ends that.
+fn answer(interrupt: &Interrupt) -> Option<String> {
+    let (sender, receiver) = mpsc::channel();
+    thread::spawn(move || {
+        let mut line = String::new();
+        let read = std::io::stdin().read_line(&mut line);
+        // Nobody waits any more after Ctrl-C.
+        let _ = sender.send(read.is_ok_and(|bytes| bytes > 0).then_some(line));
+    });
+    loop {
+        match receiver.recv_timeout(ANSWER_INTERVAL) {
+            _ if interrupt.is_set() => return None,
+            Err(RecvTimeoutError::Timeout) => {}
+            Err(RecvTimeoutError::Disconnected) => return None,
+            Ok(line) => return line,
         }
     }
 }

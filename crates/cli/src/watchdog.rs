@@ -1,16 +1,21 @@
-//! The last resort of a time limit: ends the program while it does what cannot be asked to stop, such as reading a very
-//! long file.
+//! The last resort of limits of time and memory: ends the program while it does what cannot be asked to stop, such as
+//! reading a very long file.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
 
+use typelift::model::Stop;
+
 use crate::exit::Exit;
-use crate::limits::Clock;
+use crate::limits::{Clock, Limits, holds_more_than};
 
 /// What a time limit is overstepped by at most: this, and a twentieth.
 const GRACE: Duration = Duration::from_millis(50);
+
+/// How often it is asked how much memory is held.
+const INTERVAL: Duration = Duration::from_millis(5);
 
 /// Watches until it is called off.
 #[derive(Debug, Default, Clone)]
@@ -20,20 +25,17 @@ pub(crate) struct Watchdog {
 }
 
 impl Watchdog {
-    /// Ends the program soon after the limit; before, `last_words` says why.
-    pub(crate) fn start(
-        clock: Clock,
-        limit: Option<Duration>,
-        last_words: impl FnOnce() -> Exit + Send + 'static,
-    ) -> Self {
+    /// Ends the program soon after a limit is reached; before, `last_words` says why.
+    pub(crate) fn start(clock: Clock, limits: Limits, last_words: impl FnOnce(Stop) -> Exit + Send + 'static) -> Self {
         let watchdog = Self::default();
-        let Some(limit) = limit else { return watchdog };
-        let latest = limit.saturating_add(limit / 20).saturating_add(GRACE);
+        if limits.time().is_none() && limits.bytes().is_none() {
+            return watchdog;
+        }
         let decided = watchdog.decided.clone();
         thread::spawn(move || {
-            thread::sleep(latest.saturating_sub(clock.elapsed()));
+            let Some(stop) = wait(clock, limits, &decided) else { return };
             if !decided.swap(true, Ordering::SeqCst) {
-                std::process::exit(last_words() as i32);
+                std::process::exit(last_words(stop) as i32);
             }
         });
         watchdog
@@ -46,5 +48,24 @@ impl Watchdog {
                 thread::park();
             }
         }
+    }
+}
+
+/// Waits until a limit is reached; none if it is called off before.
+fn wait(clock: Clock, limits: Limits, decided: &AtomicBool) -> Option<Stop> {
+    let latest = limits.time().map(|limit| limit.saturating_add(limit / 20).saturating_add(GRACE));
+    loop {
+        let left = latest.map(|latest| latest.saturating_sub(clock.elapsed()));
+        if decided.load(Ordering::SeqCst) {
+            return None;
+        }
+        if left == Some(Duration::ZERO) {
+            return Some(Stop::Time);
+        }
+        if limits.bytes().is_some_and(holds_more_than) {
+            return Some(Stop::Memory);
+        }
+        let interval = limits.bytes().map(|_| INTERVAL);
+        thread::sleep(left.into_iter().chain(interval).min().unwrap_or(INTERVAL));
     }
 }

@@ -20,13 +20,6 @@ impl<T: Copy> Lists<T> {
         self.ends.push(self.items.len() as u32);
     }
 
-    /// These lists.
-    pub(crate) fn from_lists(lists: impl Iterator<Item = Vec<T>>) -> Self {
-        let mut this = Self::default();
-        lists.for_each(|list| this.push(list));
-        this
-    }
-
     /// The lists that pairs of a list's number and an item make, in the pairs' order.
     pub(crate) fn from_pairs(lists: usize, pairs: impl Iterator<Item = (u32, T)> + Clone) -> Self {
         let mut ends = vec![0_u32; lists];

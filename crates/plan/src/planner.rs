@@ -6,7 +6,7 @@ use crate::Restrictions;
 use crate::explain::{Explanation, unreachable};
 use crate::ground::{GroundTask, TieOrder};
 use crate::level::Level;
-use crate::scope::{FEW_OBJECTS, FEW_OBJECTS_LAZILY, Scopes};
+use crate::scope::{EAGERLY, LAZILY, Scopes};
 use crate::search::{Outcome, Report};
 use crate::strategy::Strategy;
 
@@ -29,7 +29,7 @@ impl Default for Options {
 
 /// A task being planned: grounded once, searched on demand.
 ///
-/// A task with very many objects is planned with those that can matter first, and with more and more of them while no plan
+/// A task with many objects is planned with those that can matter first, and with more and more of them while no plan
 /// is found; a plan with fewer objects is a plan of the task. So it is with further plans and better ones: with all
 /// objects they are looked for when with fewer there are no more, or none is found for long. That there is none, no other,
 /// or no better one is only ever said of all objects. A strategy whose first plan is a cheapest one takes all at once.
@@ -68,8 +68,8 @@ impl Planner {
     ) -> Result<Self, Stop> {
         let mut scopes = match options.strategy {
             strategy if strategy.is_optimal() => Scopes::whole(),
-            Strategy::OrderedLandmarks => Scopes::of(model, task, restrictions, FEW_OBJECTS),
-            _ => Scopes::of(model, task, restrictions, FEW_OBJECTS_LAZILY),
+            Strategy::OrderedLandmarks => Scopes::of(model, task, restrictions, EAGERLY),
+            _ => Scopes::of(model, task, restrictions, LAZILY),
         };
         let mut past = Report::default();
         let level = loop {

@@ -67,8 +67,8 @@ impl Relaxation {
         goal.sort_unstable();
         goal.dedup();
         builder.add_actions(poll)?;
-        builder.add_axioms();
-        builder.close();
+        builder.add_axioms(poll)?;
+        builder.close(poll)?;
         builder.finish(goal, poll)
     }
 
@@ -171,7 +171,7 @@ impl Builder<'_> {
         let (task, actions) = (self.task, &self.task.actions);
         for index in 0..task.action_count() {
             let preconditions = self.all(actions.preconditions.get(index), actions.negative.get(index));
-            poll.check(1 + preconditions.len())?;
+            poll.check((1 + preconditions.len()) * (1 + actions.conditional.get(index).len()))?;
             let action = Some(index as u32);
             for &when in actions.conditional.get(index) {
                 let when = &actions.when[when as usize];
@@ -187,15 +187,17 @@ impl Builder<'_> {
         Ok(())
     }
 
-    fn add_axioms(&mut self) {
+    fn add_axioms(&mut self, poll: &mut Poll<'_>) -> Result<(), Stop> {
         for axiom in self.task.axioms.iter() {
+            poll.check(1 + axiom.negative.len())?;
             let preconditions = self.all(&axiom.conditions().collect::<Vec<_>>(), &axiom.negative);
             self.relaxed.push(preconditions, [self.task.number(axiom.head())], None);
         }
+        Ok(())
     }
 
     /// Says of every negation what makes it true.
-    fn close(&mut self) {
+    fn close(&mut self, poll: &mut Poll<'_>) -> Result<(), Stop> {
         let task = self.task;
         let depends_on_itself = task.axioms.dependent_on_themselves();
         let mut axioms: BTreeMap<u32, Vec<&GroundAxiom>> = BTreeMap::new();
@@ -203,6 +205,7 @@ impl Builder<'_> {
             axioms.entry(axiom.head().variable).or_default().push(axiom);
         }
         while let Some((fact, prop)) = self.open.pop() {
+            poll.check(1)?;
             if depends_on_itself.contains(&fact.variable) {
                 self.always.push(prop);
             } else if let Some(axioms) = axioms.get(&fact.variable) {
@@ -210,6 +213,7 @@ impl Builder<'_> {
                 self.relaxed.push(blocked, [prop], None);
             }
         }
+        Ok(())
     }
 
     /// A proposition that one literal's negation makes true.
@@ -228,9 +232,10 @@ impl Builder<'_> {
 
     /// What deletes a fact under a condition makes its negation true; where the condition has negations of its own that
     /// nothing asks for, under the rest of it.
-    fn add_conditional_deletes(&mut self) {
+    fn add_conditional_deletes(&mut self, poll: &mut Poll<'_>) -> Result<(), Stop> {
         let actions = &self.task.actions;
         for index in 0..self.task.action_count() {
+            poll.check(1 + actions.conditional.get(index).len())?;
             let mut preconditions = None;
             for &when in actions.conditional.get(index) {
                 let when = &actions.when[when as usize];
@@ -248,11 +253,12 @@ impl Builder<'_> {
                 self.relaxed.push(condition, [prop], Some(index as u32));
             }
         }
+        Ok(())
     }
 
     fn finish(mut self, goal: Vec<Prop>, poll: &mut Poll<'_>) -> Result<Relaxation, Stop> {
         if !self.negations.is_empty() {
-            self.add_conditional_deletes();
+            self.add_conditional_deletes(poll)?;
         }
         let facts = self.task.fact_count() as u32;
         let mut negated = vec![None; (self.props - facts) as usize];

@@ -9,7 +9,8 @@
 //! - that are the first k of their class, by name, with what is close beside each. Of one class are objects of one type of
 //!   which the initial atoms and the values say the same but for the other objects' names; their types count.
 //!
-//! A level that has more than two thirds of the objects is left out: it would cost as much as all of them. What is found
+//! A level that has more than a certain share of the objects is left out: it would cost nearly as much as all of them, and
+//! often for nothing. What is found
 //! with fewer objects is found with all, since a ground action is the same whatever objects there are besides; so this is
 //! done only where that is so: not where something holds, or happens, for all objects. That nothing is found with fewer
 //! objects says nothing.
@@ -23,12 +24,19 @@ use crate::Restrictions;
 use crate::reach::reach;
 use crate::symmetry::constants;
 
-/// Tasks with at most so many objects are planned with all of them: by the paper's search, which estimates every successor,
-/// and by others.
-pub(crate) const FEW_OBJECTS: usize = 50;
-pub(crate) const FEW_OBJECTS_LAZILY: usize = 1_000;
-/// A level has at most so many of so many objects.
-const SHARE: (usize, usize) = (2, 3);
+/// When fewer objects are tried first.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Thresholds {
+    /// Tasks with at most so many objects are planned with all of them.
+    few: usize,
+    /// A level has at most so many of so many objects.
+    share: (usize, usize),
+}
+
+/// For the paper's search, which estimates every successor, so that each object costs much.
+pub(crate) const EAGERLY: Thresholds = Thresholds { few: 50, share: (2, 3) };
+/// For searches that estimate what they expand.
+pub(crate) const LAZILY: Thresholds = Thresholds { few: 1_000, share: (1, 4) };
 /// What is beside more than so many others leads nowhere.
 const MANY_NEIGHBOURS: usize = 16;
 /// What is beside at most so many others brings them with it.
@@ -49,6 +57,8 @@ pub(crate) struct Scopes {
     classes: Vec<Vec<Object>>,
     /// The number of steps from the goal's objects, where they lead there; 0 for what an action names.
     distance: Vec<Option<usize>>,
+    /// A level has at most so many of so many objects.
+    share: (usize, usize),
     /// The level, and whether each object is in it; `None` if it has all.
     current: Option<(usize, Vec<bool>)>,
 }
@@ -57,12 +67,12 @@ impl Scopes {
     /// All objects at once.
     pub(crate) fn whole() -> Self {
         let (objects, neighbours, classes, distance) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        Self { objects, neighbours, classes, distance, current: None }
+        Self { objects, neighbours, classes, distance, share: (1, 1), current: None }
     }
 
     /// The levels of a task, standing at the first.
-    pub(crate) fn of(model: &ActionModel, task: &Task, restrictions: &Restrictions, few_objects: usize) -> Self {
-        if task.init.objects.len() <= few_objects || speaks_of_all(model) {
+    pub(crate) fn of(model: &ActionModel, task: &Task, restrictions: &Restrictions, thresholds: Thresholds) -> Self {
+        if task.init.objects.len() <= thresholds.few || speaks_of_all(model) {
             return Self::whole();
         }
         let ids: HashMap<&Symbol, Object> = task.init.objects.keys().zip(0..).collect();
@@ -74,7 +84,7 @@ impl Scopes {
         }
         let classes = classes(task, restrictions, &ids);
         let objects = task.init.objects.keys().cloned().collect();
-        let mut this = Self { objects, neighbours, classes, distance, current: None };
+        let mut this = Self { objects, neighbours, classes, distance, share: thresholds.share, current: None };
         this.current = this.level(1);
         this
     }
@@ -131,7 +141,7 @@ impl Scopes {
             }
         }
         let size = kept.iter().filter(|kept| **kept).count();
-        (size * SHARE.1 <= kept.len() * SHARE.0).then_some((level, kept))
+        (size * self.share.1 <= kept.len() * self.share.0).then_some((level, kept))
     }
 }
 
@@ -207,7 +217,7 @@ pub fn reaches_goals_with_fewer_objects(
     restrictions: &Restrictions,
     budget: &Budget,
 ) -> Result<bool, Stop> {
-    let mut scopes = Scopes::of(model, task, restrictions, FEW_OBJECTS);
+    let mut scopes = Scopes::of(model, task, restrictions, EAGERLY);
     while !scopes.is_whole() {
         let task = scopes.restrict(task);
         let facts = reach(model, &task, restrictions, budget)?.facts;

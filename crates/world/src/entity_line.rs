@@ -58,16 +58,46 @@ impl<'de, A: MapAccess<'de>> MapAccess<'de> for Watched<'_, A> {
     type Error = A::Error;
 
     fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Result<Option<K::Value>, A::Error> {
-        let Some(key) = self.access.next_key::<Symbol>()? else { return Ok(None) };
-        let found = seed.deserialize(key.as_str().into_deserializer())?;
-        if !REQUIRED.iter().chain(&OPTIONAL).any(|known| key == **known) {
-            self.unread.push(key);
+        match self.access.next_key::<Key>()? {
+            None => Ok(None),
+            Some(Key::Read(key)) => seed.deserialize(key.into_deserializer()).map(Some),
+            Some(Key::Unread(key)) => {
+                let ignored = seed.deserialize(key.as_str().into_deserializer())?;
+                self.unread.push(key);
+                Ok(Some(ignored))
+            }
         }
-        Ok(Some(found))
     }
 
     fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Result<V::Value, A::Error> {
         self.access.next_value_seed(seed)
+    }
+}
+
+/// A key of an entity.
+enum Key {
+    Read(&'static str),
+    Unread(Symbol),
+}
+
+impl<'de> Deserialize<'de> for Key {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_str(KeyVisitor)
+    }
+}
+
+struct KeyVisitor;
+
+impl Visitor<'_> for KeyVisitor {
+    type Value = Key;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a key")
+    }
+
+    fn visit_str<E>(self, key: &str) -> Result<Key, E> {
+        let read = REQUIRED.into_iter().chain(OPTIONAL).find(|known| *known == key);
+        Ok(read.map_or_else(|| Key::Unread(Symbol::new(key)), Key::Read))
     }
 }
 

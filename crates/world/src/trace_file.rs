@@ -103,11 +103,6 @@ impl<R: BufRead> TraceReader<R> {
         self.lines.line()
     }
 
-    /// What is probably not meant in the lines read so far.
-    pub fn warnings(&self) -> &[FileError] {
-        &self.unread.warnings
-    }
-
     fn next_item(&mut self) -> Result<Option<TraceItem>, FileError> {
         let path = self.lines.path().to_owned();
         let Some(line) = self.lines.next_line()? else {

@@ -35,7 +35,7 @@ fn quick_growth() {
         let fit = fits.iter().find(|fit| fit["series"] == series && fit["quantity"] == quantity);
         fit.and_then(|fit| fit["exponent"].as_f64()).expect(quantity)
     };
-    // What is counted is the same on every machine: of more objects, not more are planned with for long.
+    // What is counted is the same on every machine: 100 objects are planned with hardly more than 64.
     let ground = fitted("storeroom", "ground_actions");
     assert!((0.5..1.2).contains(&ground), "{ground}");
     assert!(fitted("goals", "ground_actions").abs() < 1e-9);

@@ -50,7 +50,7 @@ fn each_limit_ends_a_run() {
 }
 
 #[test]
-fn a_time_limit_covers_grounding() {
+fn limits_cover_grounding() {
     let folder = Folder::kitchen();
     // With thirty parameters that nothing restricts, grounding alone would take for ever.
     folder.changed("kitchen.json", "wide.json", |model| {
@@ -58,11 +58,14 @@ fn a_time_limit_covers_grounding() {
         parameters.extend((0..30).map(|i| serde_json::json!([format!("y{i}"), "item"])));
     });
     let ended = folder.run("plan wide.json K/tasks/T1.1.json --time-limit 200ms");
-    assert_eq!((ended.code, ended.err.as_str()), (23, "no plan: out of time while grounding\n"), "{ended}");
+    assert_eq!((ended.code, ended.err.as_str()), (23, "no plan: out of time before the search\n"), "{ended}");
+    // So does a limit of memory.
+    let ended = folder.run("plan wide.json K/tasks/T1.1.json --memory-limit 60");
+    assert_eq!((ended.code, ended.err.as_str()), (22, "no plan: out of memory before the search\n"), "{ended}");
 }
 
 #[test]
-fn a_time_limit_covers_reading() {
+fn limits_cover_reading() {
     let folder = Folder::new();
     folder.write(
         "domain.pddl",
@@ -76,6 +79,8 @@ fn a_time_limit_covers_reading() {
     (1..places).for_each(|i| writeln!(problem, " (road p{} p{i})", i - 1).expect("written"));
     problem.push_str(") (:goal (at p9)))");
     folder.write("problem.pddl", problem);
+    let ended = folder.run("plan domain.pddl problem.pddl -o p --memory-limit 20");
+    assert_eq!((ended.code, ended.err.as_str()), (22, "no plan: out of memory before the search\n"), "{ended}");
     let took = |command: &str, code: i32| {
         let begun = Instant::now();
         let ended = folder.run(command);

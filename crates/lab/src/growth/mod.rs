@@ -132,6 +132,15 @@ mod tests {
         }
     }
 
+    /// With all objects of two kitchens the search expands 792,056 states, and more than there is memory for of three.
+    #[test]
+    fn a_few_kitchens_are_no_harder_than_one() {
+        for point in ["kitchens 64", "kitchens 100", "kitchens 150"] {
+            let measured = measure(point.parse().expect(point), ALLOWANCE);
+            assert!(measured.end == End::Finished && measured.expansions < Some(100), "{point}: {measured:?}");
+        }
+    }
+
     #[test]
     fn what_is_not_allowed_cuts_a_point() {
         let point = "storeroom 100".parse().expect("a point");

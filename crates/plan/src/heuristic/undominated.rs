@@ -56,7 +56,11 @@ impl Undominated {
                 *known = way.min(*known);
             }
         }
-        let subsets = Lists::from_lists(sets.iter().map(|set| known_subsets(set, &set_ids)));
+        let mut subsets = Lists::default();
+        for set in &sets {
+            poll.check(1 << set.len().min(MOST_SUBSETS_OF))?;
+            subsets.push(known_subsets(set, &set_ids));
+        }
         let mut this = Self::default();
         for (relaxed, adds) in relaxation.adds.iter().enumerate() {
             poll.check(1 + adds.len())?;

@@ -9,7 +9,7 @@
 //! needed again is inserted again: before each L, what all achievers of L need and every achiever of some landmark since
 //! has destroyed.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use typelift_model::{Budget, GroundAtom, Stop, Symbol};
 
@@ -50,8 +50,7 @@ pub(crate) fn sequences(task: &GroundTask, fdr: &Fdr, budget: &Budget) -> Result
         };
         let mut props: BTreeSet<Prop> = BTreeSet::new();
         for goal in &goals {
-            let fact = task.goal().iter().copied().find(|&fact| task.atom(fact) == *goal);
-            let Some(place) = fact.and_then(|fact| fdr.assignment(fact)) else { continue };
+            let Some(place) = task.facts().find(goal).and_then(|fact| fdr.assignment(fact)) else { continue };
             let goal = fdr.number(place);
             let mentions = |prop: Prop| task.atom(fdr.fact(prop)).args.iter().any(|arg| objects.contains(arg));
             props.extend(landmarks.of_prop(goal).iter().filter(|&&prop| mentions(prop)));
@@ -68,22 +67,16 @@ pub(crate) fn sequences(task: &GroundTask, fdr: &Fdr, budget: &Budget) -> Result
 
 /// The goal's atoms by goal object; atoms that mention none stand alone, after them.
 fn clusters(task: &GroundTask) -> Vec<(Option<Symbol>, Vec<GroundAtom>)> {
-    let objects: BTreeSet<&Symbol> =
-        task.goal_atoms().iter().filter(|atom| atom.arity() == 1).map(|atom| &atom.args[0]).collect();
-    let owner = |atom: &GroundAtom| atom.args.iter().find(|arg| objects.contains(arg)).cloned();
-    let mut clusters: Vec<(Option<Symbol>, Vec<GroundAtom>)> =
-        objects.iter().map(|&object| (Some(object.clone()), Vec::new())).collect();
+    let objects = task.goal_atoms().iter().filter(|atom| atom.arity() == 1).map(|atom| &atom.args[0]);
+    let mut clusters: BTreeMap<&Symbol, Vec<GroundAtom>> = objects.map(|object| (object, Vec::new())).collect();
+    let mut alone = Vec::new();
     for atom in task.goal_atoms() {
-        match owner(atom) {
-            Some(object) => {
-                if let Some(cluster) = clusters.iter_mut().find(|(o, _)| o.as_ref() == Some(&object)) {
-                    cluster.1.push(atom.clone());
-                }
-            }
-            None => clusters.push((None, vec![atom.clone()])),
+        match atom.args.iter().find(|&arg| clusters.contains_key(arg)) {
+            Some(object) => clusters.entry(object).or_default().push(atom.clone()),
+            None => alone.push((None, vec![atom.clone()])),
         }
     }
-    clusters
+    clusters.into_iter().map(|(object, atoms)| (Some(object.clone()), atoms)).chain(alone).collect()
 }
 
 /// In which order landmarks are passed.
