@@ -55,7 +55,7 @@ pub(crate) struct Plan {
     #[arg(long, value_name = "N", default_value_t = 1, allow_negative_numbers = true,
         value_parser = clap::value_parser!(u64).range(1..=1000), conflicts_with = "planner")]
     plans: u64,
-    /// Go on looking for shorter plans until there is none, a limit is met, or Ctrl-C is pressed
+    /// Go on looking for cheaper plans until there is none, a limit is met, or Ctrl-C is pressed
     #[arg(long, conflicts_with_all = ["plans", "planner"])]
     better: bool,
     /// Use an action also where some of its effects hold already
@@ -299,7 +299,7 @@ impl Plan {
     /// Says why there are no more plans, where more were wanted.
     fn report_end(&self, outcome: &Outcome, found: usize) {
         if self.better || (found as u64) < self.plans {
-            let what = if self.better { "no shorter plan" } else { "no further plan" };
+            let what = if self.better { "no better plan" } else { "no further plan" };
             anstream::eprintln!("{what}: {}", ending(outcome));
         }
     }

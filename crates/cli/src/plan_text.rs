@@ -31,11 +31,21 @@ pub(crate) fn numbered_steps(plan: &Plan, hierarchy: &Hierarchy) -> String {
     text
 }
 
-/// `5 steps, 1 imagined`.
+/// `5 steps, 1 imagined`; `4 steps, cost 16` where steps have costs of their own.
 pub(crate) fn plan_size(plan: &Plan) -> String {
     let imagined = plan.steps.iter().filter(|step| step.imagined.is_some()).count();
-    let size = count(plan.len() as u64, "step");
-    if imagined == 0 { size } else { format!("{size}, {imagined} imagined") }
+    let mut size = count(plan.len() as u64, "step");
+    if !has_unit_costs(plan) {
+        let _ = write!(size, ", cost {}", plan.cost());
+    }
+    if imagined > 0 {
+        let _ = write!(size, ", {imagined} imagined");
+    }
+    size
+}
+
+fn has_unit_costs(plan: &Plan) -> bool {
+    plan.steps.iter().all(|step| step.cost == 1)
 }
 
 /// The plan file: one `(name arg …)` a line in PDDL names, then the cost.
@@ -55,7 +65,7 @@ pub(crate) fn plan_file(plan: &Plan, model: &ActionModel, state: &State) -> Resu
         }
         text.push('\n');
     }
-    let unit = if plan.steps.iter().all(|step| step.cost == 1) { "unit cost" } else { "general cost" };
+    let unit = if has_unit_costs(plan) { "unit cost" } else { "general cost" };
     let _ = writeln!(text, "; cost = {} ({unit})", plan.cost());
     Ok(text)
 }
