@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use typelift::model::{Budget, Plan, Stop};
-use typelift::plan::{Options, Outcome, Planner, Restrictions};
+use typelift::plan::{Options, Outcome, Planner, Restrictions, Strategy};
 use typelift_kitchen::{KitchenTask, tasks};
 use typelift_tests::{kitchen_model, planning_task};
 
@@ -31,9 +31,13 @@ fn plans(planner: &mut Planner, wanted: usize, budget: &Budget) -> (Vec<Plan>, u
 }
 
 fn planner(task: &KitchenTask, wanted: usize, budget: &Budget) -> Result<Planner, Stop> {
+    planner_with(&Options { plans: wanted, ..Options::default() }, task, budget)
+}
+
+fn planner_with(options: &Options, task: &KitchenTask, budget: &Budget) -> Result<Planner, Stop> {
     let model = kitchen_model(false);
     let asked = planning_task(&model, task, 0);
-    Planner::new(&model, &asked, &Restrictions::default(), &Options { plans: wanted, ..Options::default() }, budget)
+    Planner::new(&model, &asked, &Restrictions::default(), options, budget)
 }
 
 fn task() -> KitchenTask {
@@ -79,13 +83,16 @@ fn a_search_that_ran_out_of_memory_goes_on_with_more() {
 
 #[test]
 fn whatever_comes_before_the_search_can_be_stopped_at_every_question() {
-    let (never, questions) = stopping(usize::MAX);
-    planner(&task(), 1, &never).expect("no stop");
-    let questions = questions.load(Ordering::Relaxed);
-    assert!(questions > 5, "{questions} questions: nothing was tested");
-    for number in 1..=questions {
-        let ended = planner(&task(), 1, &stopping(number).0).map(drop);
-        assert_eq!(ended, Err(Stop::Time), "question {number} of {questions}");
+    for strategy in Strategy::ALL {
+        let options = Options { strategy, ..Options::default() };
+        let (never, questions) = stopping(usize::MAX);
+        planner_with(&options, &task(), &never).expect("no stop");
+        let questions = questions.load(Ordering::Relaxed);
+        assert!(questions > 5, "{strategy}: {questions} questions: nothing was tested");
+        for number in 1..=questions {
+            let ended = planner_with(&options, &task(), &stopping(number).0).map(drop);
+            assert_eq!(ended, Err(Stop::Time), "{strategy}: question {number} of {questions}");
+        }
     }
 }
 

@@ -23,8 +23,8 @@ Writes violins.svg, demonstrations.csv (a row a subset: what the violins are mad
 of), sizes.csv, gains.csv, demonstrations.json and demonstrations.md. Nothing in
 them depends on the machine, unless --time-limit ended a search.
 
-Limits, unless told otherwise: 4,000 expansions a search, 4 proposals and 120 s
-a task.")]
+Limits, unless told otherwise: 4,000 expansions a search, 4 proposals and
+120 s a task.")]
 pub(crate) struct LabDemonstrations {
     #[command(flatten)]
     options: LabOptions,

@@ -22,8 +22,8 @@ Every tool broken in turn, and every pair; food that not every tool cuts; a
 chopped carrot in the blender. Each is a task and a later one that knows what
 failed in the first. Writes faults.csv, faults.json and faults.md.
 
-Limits, unless told otherwise: 200,000 expansions a search, 12 proposals and 120 s
-a task.")]
+Limits, unless told otherwise: 200,000 expansions a search, 12 proposals and
+120 s a task.")]
 pub(crate) struct LabFaults {
     #[command(flatten)]
     options: LabOptions,

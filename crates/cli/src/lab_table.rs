@@ -20,8 +20,8 @@ use crate::style::{BAD, DIM, GOOD, HEAD, wrapped};
 Writes table.csv, table.json and table.md. Planning times are the only thing in
 them that differs from run to run; --no-times leaves them out.
 
-Limits, unless told otherwise: 200,000 expansions a search, 12 proposals and 120 s
-a task.")]
+Limits, unless told otherwise: 200,000 expansions a search, 12 proposals and
+120 s a task.")]
 pub(crate) struct LabTable {
     #[command(flatten)]
     options: LabOptions,
