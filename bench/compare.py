@@ -103,7 +103,7 @@ def known_planners(arguments):
         options = ["--alias", "lama-first", "--plan-file", "{plan}"]
         commands["fast-downward"] = [sys.executable, str(driver), *options, "{domain}", "{problem}"]
     if find_spec("pymimir"):
-        commands["mimir"] = [sys.executable, "-c", MIMIR, "{domain}", "{problem}", "{plan}", "{seconds}"]
+        commands["mimir"] = [sys.executable, "-c", MIMIR, "{domain}", "{problem}", "{plan}", "{seconds}", "gbfs_lazy"]
     if find_spec("pyperplan"):
         options = ["-H", "hff", "-s", "gbf"]
         commands["pyperplan"] = [sys.executable, "-m", "pyperplan", *options, "{domain}", "{problem}"]
