@@ -365,9 +365,10 @@ class Confirmation:
     def fast_downward(self, domain, problem, folder):
         driver = pathlib.Path(find_spec("up_fast_downward").origin).parent / "downward" / "fast-downward.py"
         files = ["--plan-file", folder / "other", "--sas-file", folder / "sas", domain, problem]
-        command = [sys.executable, driver, "--overall-time-limit", f"{JUDGE_SECONDS}s", *files, "--search", "astar(blind())"]
+        limit = ["--overall-time-limit", f"{JUDGE_SECONDS}s"]
+        command = [sys.executable, driver, *limit, *files, "--search", "astar(blind())"]
         ended = subprocess.run(list(map(str, command)), capture_output=True)
-        # 10 is the translator's, for what cannot be reached at all; a search that has seen every state claims nothing.
+        # 10 is the translator's, for what cannot be reached at all; blind search that has seen every state exits as if it had not.
         proved = ended.returncode == 10 or b"Completely explored state space" in ended.stdout
         return 11 if proved else ended.returncode
 

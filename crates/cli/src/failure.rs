@@ -84,7 +84,7 @@ impl From<ExportError> for Failure {
 
 impl From<Stop> for Failure {
     fn from(stop: Stop) -> Self {
-        Self::new(stop_exit(stop), format!("{stop} before the search"))
+        ProposeError::Stopped(stop).into()
     }
 }
 
@@ -107,7 +107,7 @@ impl From<ModelFileError> for Failure {
 impl From<ProposeError> for Failure {
     fn from(error: ProposeError) -> Self {
         match error {
-            ProposeError::Stopped(stop) => stop.into(),
+            ProposeError::Stopped(stop) => Self::new(stop_exit(stop), error),
             ProposeError::External(ExternalFailure::Failed(message)) => {
                 Self::new(Exit::Planner, format!("the planner failed: {message}"))
             }
@@ -139,7 +139,7 @@ fn printable_lines(text: &str) -> String {
     text.split('\n').map(printable).collect::<Vec<_>>().join("\n")
 }
 
-/// The exit code of grounding that was ended.
+/// The exit code of what was ended before the search.
 pub(crate) fn stop_exit(stop: Stop) -> Exit {
     match stop {
         Stop::Memory => Exit::OutOfMemory,

@@ -308,16 +308,16 @@ impl Plan {
 /// Says that the search did not even begin.
 fn say_stop(stop: Stop, json: bool, took: Duration) -> Result<Exit, Failure> {
     let exit = stop_exit(stop);
-    let (outcome, why) = match exit {
-        Exit::OutOfMemory => ("out_of_memory", "out of memory before the search"),
-        Exit::OutOfTime => ("out_of_time", "out of time before the search"),
-        _ => ("stopped", "stopped before the search"),
+    let outcome = match stop {
+        Stop::Memory => "out_of_memory",
+        Stop::Time => "out_of_time",
+        Stop::Cancelled => "stopped",
     };
     if json {
         let answer = Answer { outcome, seconds: took.as_secs_f64(), ..Answer::default() };
         writeln!(anstream::stdout(), "{}", serde_json::to_string_pretty(&answer).unwrap_or_default())?;
     } else {
-        anstream::eprintln!("{BAD}no plan{BAD:#}: {why}");
+        anstream::eprintln!("{BAD}no plan{BAD:#}: {}", ProposeError::Stopped(stop));
     }
     Ok(exit)
 }

@@ -36,7 +36,8 @@ pub(crate) fn not_utf8(path: &Path, line: usize, offset: usize) -> FileError {
 }
 
 /// Writes a file in one go: whoever reads it sees the old content or the new, never a part. What is not a regular
-/// file, as a pipe or a terminal, is written to directly.
+/// file, as a pipe or a terminal, is written to directly. If the machine halts soon after, what was replaced is there in
+/// one of the two; of a file that is new nothing may be.
 ///
 /// # Errors
 /// [`FileError`] if that fails; nothing is left behind then.
