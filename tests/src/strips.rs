@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use proptest::prelude::*;
 use typelift::model::{
-    ActionModel, ActionSchema, Effect, GroundAtom, Hierarchy, LiftedAtom, LiftedCall, Literal, Parameter, Provenance,
-    State, Symbol, Task, Term, TypeId,
+    ActionModel, ActionSchema, Effect, Goal, GroundAtom, Hierarchy, LiftedAtom, LiftedCall, Literal, Parameter,
+    Provenance, State, Symbol, Task, Term, TypeId,
 };
 
 /// Predicates with their numbers of arguments.
@@ -102,14 +102,14 @@ pub fn tiny(most: usize) -> impl Strategy<Value = Tiny> {
             let init = State { objects, atoms, unknown: BTreeSet::new() };
             let predicates = PREDICATES.iter().map(|(name, n)| (Symbol::new(name), *n)).collect();
             let model = ActionModel { hierarchy: hierarchy.clone(), predicates, actions, ..ActionModel::default() };
-            let mut task = Task::new(init, Vec::new());
+            let mut task = Task::new(init, Goal::default());
             // Mostly what is reachable, and the hardest of that: anything else is unsolvable, or solved in a step.
             let reachable = reachable_in_order(&all_instances(&model, &task), &task);
             let hard = &reachable[reachable.len() * 3 / 4..];
             for (drawn, reach, index) in goal {
                 let atom = if reach && !hard.is_empty() { index.get(hard).clone() } else { ground((n, drawn)) };
-                if !task.goal.contains(&atom) {
-                    task.goal.push(atom);
+                if !task.goal.required.contains(&atom) {
+                    task.goal.required.push(atom);
                 }
             }
             Tiny { model, task }
@@ -295,7 +295,7 @@ fn cheapest_through(
     let mut best = BTreeMap::from([(task.init.atoms.clone(), 0)]);
     let mut queue = BTreeSet::from([(0, task.init.atoms.clone())]);
     while let Some((cost, atoms)) = queue.pop_first() {
-        if task.goal.iter().all(|goal| atoms.contains(goal)) {
+        if task.goal.required.iter().all(|goal| atoms.contains(goal)) {
             return Cheapest::Cost(cost);
         }
         for instance in instances {

@@ -2,7 +2,7 @@
 
 use typelift::model::{
     ActionModel, ActionSchema, Budget, Effect, GroundAtom, Hierarchy, LiftedAtom, LiftedCall, Literal, Parameter,
-    Provenance, Task, Term,
+    Provenance, State, Task, Term,
 };
 use typelift::plan::{Ban, Outcome, Planner, Restrictions};
 
@@ -29,7 +29,7 @@ fn world() -> (ActionModel, Task) {
         cost: 1.into(),
         provenance: Provenance::Given,
     };
-    let mut task = Task { goal: vec![GroundAtom::parse("done(x)").expect("an atom")], ..Task::default() };
+    let mut task = Task::new(State::default(), vec![GroundAtom::parse("done(x)").expect("an atom")]);
     task.init.objects.extend([("x".into(), lamp), ("y".into(), lamp)]);
     (ActionModel { hierarchy, actions: vec![flip], ..ActionModel::default() }, task)
 }
@@ -82,7 +82,7 @@ fn goals_that_exclude_each_other_are_not_searched_for() {
     let outcome = |actions: &[&ActionSchema], init: &[&str], goal: &[&str]| {
         let model = ActionModel { actions: actions.iter().map(|&a| a.clone()).collect(), ..ActionModel::default() };
         let ground = |texts: &[&str]| texts.iter().map(|t| GroundAtom::parse(t).expect("an atom")).collect::<Vec<_>>();
-        let mut task = Task { goal: ground(goal), ..Task::default() };
+        let mut task = Task::new(State::default(), ground(goal));
         task.init.atoms.extend(ground(init));
         let (none, no_limit) = (Restrictions::default(), Budget::unlimited());
         let mut planner = Planner::new(&model, &task, &none, &Default::default(), &no_limit).expect("no limits");

@@ -181,7 +181,7 @@ fn what_cannot_be_done_is_said_of_all_objects() {
         assert_eq!(planner.ground_task().op_count(), 20);
     }
     let mut nowhere = road(5, 4);
-    nowhere.1.goal.push(GroundAtom::new("at", vec!["can-001".into()]));
+    nowhere.1.goal.required.push(GroundAtom::new("at", vec!["can-001".into()]));
     let mut planner = planner(&nowhere, Strategy::default());
     assert_eq!(planner.next_plan(&no_limit), Outcome::Unsolvable);
     let Explanation::Unreachable(goals) = planner.explain() else { panic!("a can is no place") };

@@ -42,7 +42,7 @@ impl Renaming {
         let place = |i: usize| if same_order { i } else { scattered(i) };
         let states =
             || dataset.traces.iter().flat_map(|trace| &trace.states).chain(tasks.iter().map(|task| &task.init));
-        let atoms = || states().flat_map(|state| &state.atoms).chain(tasks.iter().flat_map(|task| &task.goal));
+        let atoms = || states().flat_map(|state| &state.atoms).chain(tasks.iter().flat_map(|task| &task.goal.required));
         let calls = dataset.traces.iter().flat_map(|trace| &trace.actions).map(|action| action.call.name.clone());
         let types = dataset.hierarchy.types().map(|t| dataset.hierarchy.name(t).clone());
         let types: BTreeSet<Symbol> = types.filter(|name| *name != ROOT).collect();
@@ -96,7 +96,7 @@ impl Renaming {
     }
 
     fn task(&self, task: &Task) -> Task {
-        Task::new(self.state(&task.init), task.goal.iter().map(|atom| self.ground(atom)).collect())
+        Task::new(self.state(&task.init), task.goal.required.iter().map(|atom| self.ground(atom)).collect::<Vec<_>>())
     }
 
     fn dataset(&self, dataset: &Dataset) -> Dataset {

@@ -141,7 +141,7 @@ fn renamed(task: &Task, multiplier: usize) -> Task {
         atoms: task.init.atoms.iter().map(atom).collect(),
         unknown: BTreeSet::new(),
     };
-    Task::new(init, task.goal.iter().map(atom).collect())
+    Task::new(init, task.goal.required.iter().map(atom).collect::<Vec<_>>())
 }
 
 #[test]
@@ -252,7 +252,7 @@ proptest! {
         prop_assert_eq!(ground.op_count_with_duplicates(), expected.len());
         let found: BTreeSet<Instance> = ground.ops().map(|(id, op)| instance(&ground, id, op)).collect();
         prop_assert_eq!(found, expected.into_iter().collect());
-        let unreachable: Vec<_> = task.goal.iter().filter(|goal| !reachable.contains(goal)).cloned().collect();
+        let unreachable: Vec<_> = task.goal.required.iter().filter(|goal| !reachable.contains(goal)).cloned().collect();
         prop_assert_eq!(ground.unreachable_goals(), unreachable);
     }
 
@@ -459,7 +459,7 @@ fn a_further_plan_may_differ_in_any_action() {
         let mut actions = vec![action(detour, "noise"), action("b", "done")];
         actions.sort_by(|a, b| a.name.cmp(&b.name));
         let model = ActionModel { actions, ..ActionModel::default() };
-        let task = Task::from(vec![GroundAtom::new("done", Vec::new())]);
+        let task = Task::new(Default::default(), vec![GroundAtom::new("done", Vec::new())]);
         let options = plan::Options { plans: 2, ..plan::Options::default() };
         let mut planner =
             Planner::new(&model, &task, &Restrictions::default(), &options, &Budget::unlimited()).expect("no limits");

@@ -4,9 +4,12 @@
 //! that are neither actor nor in the goal are excluded: from every action if the world is set back (the paper's way),
 //! only from actions of the same name if the episode goes on from where it is. Then it imagines and plans again.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use typelift_model::{ActionModel, Budget, GroundAction, Plan, Provenance, State, Stop, Symbol, Task};
+use typelift_model::{
+    ActionModel, Budget, Goal, GroundAction, GroundAtom, Plan, Provenance, State, Stop, Symbol, Task,
+};
 use typelift_plan::{Ban, Exclusion, Outcome};
 
 use crate::account::{Account, Ending, Failure};
@@ -33,8 +36,9 @@ enum Phase {
 #[derive(Debug)]
 pub struct Episode {
     model: Arc<ActionModel>,
-    /// What is to be achieved; its initial state is not looked at.
-    task: Task,
+    goal: Goal,
+    /// The values of the functions that costs mention.
+    values: BTreeMap<GroundAtom, u32>,
     options: Options,
     budget: Budget,
     experience: Experience,
@@ -60,11 +64,10 @@ pub struct Episode {
 }
 
 impl Episode {
-    /// An episode for this goal, with what earlier tasks of the run taught. Of a whole task the initial state does not
-    /// count: it is observed.
+    /// An episode for this goal, with what earlier tasks of the run taught.
     pub fn new(
         model: Arc<ActionModel>,
-        task: impl Into<Task>,
+        goal: impl Into<Goal>,
         options: Options,
         experience: Experience,
         budget: Budget,
@@ -72,7 +75,8 @@ impl Episode {
         Self {
             planned_with: ActionModel::default(),
             model,
-            task: task.into(),
+            goal: goal.into(),
+            values: BTreeMap::new(),
             options,
             budget,
             inherited: experience.clone(),
@@ -99,6 +103,12 @@ impl Episode {
                 relaxed: false,
             },
         }
+    }
+
+    /// The same with the values of the functions that the model's [costs](typelift_model::Cost) mention.
+    #[must_use]
+    pub fn with_values(self, values: BTreeMap<GroundAtom, u32>) -> Self {
+        Self { values, ..self }
     }
 
     /// What failed so far, in this task and the ones before it.
@@ -173,7 +183,7 @@ impl Episode {
 
     /// Plans from the current state.
     fn propose(&mut self, observer: &mut dyn Observer) -> Result<Command, ProposeError> {
-        if self.task.goal_holds(&self.state) {
+        if self.goal.holds_in(&self.state) {
             // It held from the start, or came about by a step that otherwise failed.
             self.account.plan = Some(Plan { steps: self.plan.steps[..self.taken].to_vec() });
             return Ok(self.end(Ending::Solved, observer));
@@ -268,7 +278,7 @@ impl Episode {
 
     fn plan_once(&mut self, options: &Options, observer: &mut dyn Observer) -> Result<Proposal, ProposeError> {
         observer.event(&Event::PlanningStarted { proposal: self.account.proposals + 1 });
-        let task = self.task.from_state(self.state.clone());
+        let task = Task { init: self.state.clone(), goal: self.goal.clone(), values: self.values.clone() };
         let mut restrictions = self.experience.restrictions();
         if self.bans_only {
             restrictions.excluded.clear();
@@ -290,7 +300,7 @@ impl Episode {
     /// Goes on to the next step of the plan, or ends it.
     fn advance(&mut self, observer: &mut dyn Observer) -> Result<Command, ProposeError> {
         if self.next_step == self.plan.len() {
-            if self.task.goal_holds(&self.state) {
+            if self.goal.holds_in(&self.state) {
                 self.account.plan = Some(self.plan.clone());
                 return Ok(self.end(Ending::Solved, observer));
             }
@@ -419,7 +429,7 @@ impl Episode {
     fn blamed(&self, objects: &[Symbol]) -> Vec<Exclusion> {
         let call = (!self.options.restart).then(|| self.plan.steps[self.next_step].call.name.clone());
         let is_actor = |object: &Symbol| self.state.objects.get(object).is_some_and(|ty| self.model.is_actor(*ty));
-        let in_goal = |object: &Symbol| self.task.goal_literals().any(|(atom, _)| atom.args.contains(object));
+        let in_goal = |object: &Symbol| self.goal.mentions(object);
         let mut objects: Vec<&Symbol> = objects.iter().filter(|o| !is_actor(o) && !in_goal(o)).collect();
         objects.sort_unstable();
         objects.dedup();

@@ -108,7 +108,7 @@ pub fn check(model: &ActionModel, task: &Task, plan: &Plan) -> Result<State, Inv
         }
         advance(model, &action, &mut state);
     }
-    match task.goal_literals().find(|&(atom, positive)| state.holds(atom) != positive) {
+    match task.goal.literals().find(|&(atom, positive)| state.holds(atom) != positive) {
         Some((atom, positive)) => Err(Invalid::Goal { atom: atom.clone(), positive }),
         None => Ok(state),
     }
@@ -199,7 +199,7 @@ mod tests {
     fn task(goal: &str) -> Task {
         let model = model();
         let id = |name| model.hierarchy.id(name).expect("declared");
-        let mut task = Task { goal: vec![ground(goal)], ..Task::default() };
+        let mut task = Task { goal: vec![ground(goal)].into(), ..Task::default() };
         for (object, ty) in [("hall", "room"), ("attic", "room"), ("cellar", "room"), ("bulb", "lamp")] {
             task.init.objects.insert(object.into(), id(ty));
         }

@@ -48,7 +48,7 @@ pub fn validate(model: &ActionModel, task: &Task, lines: &[GroundCall]) -> Resul
             Err(invalid) => return Err((plan, invalid)),
         }
     }
-    match task.goal_literals().find(|&(atom, positive)| state.holds(atom) != positive) {
+    match task.goal.literals().find(|&(atom, positive)| state.holds(atom) != positive) {
         Some((atom, positive)) => Err((plan, Invalid::Goal { atom: atom.clone(), positive })),
         None => Ok(Valid { plan, state }),
     }

@@ -12,7 +12,7 @@ use clap::ValueEnum;
 use typelift::agent::{Confirmation, Ending, Episode, Experience, Options, run};
 use typelift::bridge::Bridge;
 use typelift::imagine;
-use typelift::model::{ActionModel, Plan, Task};
+use typelift::model::{ActionModel, Plan, State, Task};
 use typelift::world::{FileError, Parser, Reset, Scene, TaskFile, World, WorldError};
 use typelift_kitchen::Kitchen;
 
@@ -136,7 +136,9 @@ impl Run {
         let mut tasks = Vec::with_capacity(self.tasks.len());
         for path in &self.tasks {
             tasks.push(match input.read_task(path, quiet)? {
-                TaskInput::File(file) => (path, Arc::clone(&learned), self.reset(&file), Task::from(file.goal)),
+                TaskInput::File(file) => {
+                    (path, Arc::clone(&learned), self.reset(&file), Task::new(State::default(), file.goal))
+                }
                 TaskInput::Problem(problem) => (path, Arc::new(problem.0), self.reset_to_problem(path), problem.1),
             });
         }
@@ -163,9 +165,10 @@ impl Run {
             narrator.planning = Duration::ZERO;
             let budget = self.limits.with_default_expansions(EXPANSIONS).budget(clock, &interrupt);
             let mut episode =
-                Episode::new(Arc::clone(&model), task.clone(), options.clone(), experience.clone(), budget);
+                Episode::new(Arc::clone(&model), task.goal.clone(), options.clone(), experience.clone(), budget)
+                    .with_values(task.values);
             let mut parser = Parser::new(model.hierarchy.clone(), model.parse.clone());
-            let goal = task.goal_literals().map(|(atom, _)| atom.clone()).collect();
+            let goal = task.goal.literals().map(|(atom, _)| atom.clone()).collect();
             let mut checked = GoalCheck { world: &mut *world, model: &model, goal, error: None };
             let mut confirm = |plan: &Plan| self.confirm(plan, &model, &interrupt);
             let ran = run(&mut episode, &mut checked, &reset, &mut parser, &mut confirm, &mut narrator);

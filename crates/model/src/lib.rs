@@ -19,6 +19,7 @@ mod axiom;
 mod budget;
 mod choices;
 mod evidence;
+mod goal;
 mod hierarchy;
 mod instantiate;
 mod json_message;
@@ -45,6 +46,7 @@ pub use evidence::{
     Cluster, ClusterKey, Evidence, MOST_PARAMETERS, NegativeKey, PRE_STATE_BOUND, PreStates, Unexplained,
     WITNESS_BOUND, Witness,
 };
+pub use goal::Goal;
 pub use hierarchy::{Hierarchy, HierarchyError, ROOT, TypeId};
 pub use instantiate::{GroundAction, InstantiateError};
 pub use json_message::json_message;

@@ -1,8 +1,8 @@
 //! Models and tasks as PDDL: what is written at each level, that it reads as what was written, and what is refused.
 
 use typelift_model::{
-    ActionModel, ActionSchema, Axiom, Cost, Effect, GroundAtom, Hierarchy, LiftedAtom, LiftedCall, Literal, Parameter,
-    Provenance, Replacement, State, Symbol, Task, Term,
+    ActionModel, ActionSchema, Axiom, Cost, Effect, Goal, GroundAtom, Hierarchy, LiftedAtom, LiftedCall, Literal,
+    Parameter, Provenance, Replacement, State, Symbol, Task, Term,
 };
 use typelift_pddl::{ExportError, ExportOptions, Exported, Level, export, read_domain, read_problem};
 
@@ -85,8 +85,8 @@ fn task() -> Task {
     let objects = objects.map(|(name, ty)| (Symbol::new(name), types.id(ty).expect(ty)));
     let atoms = ["at(bob,Home)", "at(saw_1,Home)", "dark()", "is_Ready(saw_2)", "near(saw_1,shelf_1)"].map(ground);
     let init = State { objects: objects.into(), atoms: atoms.into(), ..State::default() };
-    let negative_goal = vec![ground("near(saw_1,shelf_1)")];
-    Task { negative_goal, ..Task::new(init, vec![ground("is_Ready(saw_1)")]) }
+    let goal = Goal { required: vec![ground("is_Ready(saw_1)")], forbidden: vec![ground("near(saw_1,shelf_1)")] };
+    Task::new(init, goal)
 }
 
 /// The task, something in whose initial state keeps what must hold from saying what may not.
@@ -409,7 +409,7 @@ fn what_must_hold_may_say_what_may_not() {
         names.map(|line| line[5..].split(' ').next().unwrap_or_default().to_owned()).collect::<Vec<_>>()
     };
     let mut task = task();
-    task.negative_goal.clear();
+    task.goal.forbidden.clear();
     task.init.atoms = ["empty(bob)", "at(saw_1,Home)", "at(saw_2,Home)"].map(ground).into();
     let model = with_a_hand();
     assert_eq!(complements(Some(&task), &model), Vec::<String>::new());

@@ -5,7 +5,7 @@
 
 use std::collections::BTreeSet;
 
-use typelift_model::{ActionModel, ActionSchema, Budget, GroundAtom, HashMap, Step, Stop, Symbol, Task};
+use typelift_model::{ActionModel, ActionSchema, Budget, Goal, GroundAtom, HashMap, Step, Stop, Symbol, Task};
 
 use crate::Restrictions;
 use crate::distinct::Distinct;
@@ -91,8 +91,7 @@ pub struct GroundTask {
     init: Vec<FactId>,
     goal: Vec<FactId>,
     negative_goal: Vec<FactId>,
-    goal_atoms: Vec<GroundAtom>,
-    negative_goal_atoms: Vec<GroundAtom>,
+    asked: Goal,
     unreachable: Vec<GroundAtom>,
     ops_before_deduplication: usize,
     bytes: u64,
@@ -114,7 +113,7 @@ pub fn ground(
     let basic = task.init.atoms.iter().filter(|atom| !derived.contains(&atom.predicate));
     let init: Vec<FactId> = basic.filter_map(|atom| facts.find(atom)).collect();
     let (mut goal, mut unreachable) = (Vec::new(), Vec::new());
-    for atom in &task.goal {
+    for atom in &task.goal.required {
         match facts.intern_atom(atom) {
             Some(fact) if facts.is_reached(fact) => goal.push(fact),
             _ => unreachable.push(atom.clone()),
@@ -124,10 +123,10 @@ pub fn ground(
     goal.dedup();
     // What is never reached never holds.
     let negative_goal: Vec<FactId> =
-        task.negative_goal.iter().filter_map(|atom| facts.find(atom)).filter(|&f| facts.is_reached(f)).collect();
+        task.goal.forbidden.iter().filter_map(|atom| facts.find(atom)).filter(|&f| facts.is_reached(f)).collect();
     let rank = schema_ranks(model, order);
     raw.sort_by(|a, b| (rank[a.schema], &a.objects).cmp(&(rank[b.schema], &b.objects)));
-    let mentioned: BTreeSet<&Symbol> = task.goal_literals().flat_map(|(atom, _)| &atom.args).collect();
+    let mentioned: BTreeSet<&Symbol> = task.goal.literals().flat_map(|(atom, _)| &atom.args).collect();
     let touches_goal = |op: &RawOp| {
         op.objects.iter().any(|&object| {
             let ty = task.init.objects[facts.name(object)];
@@ -159,7 +158,6 @@ pub fn ground(
     derived.sort_unstable();
     derived.dedup();
     let init = closed(init, ops[actions..].iter().zip(strata.iter().copied()), &derived, facts.len());
-    let (goal_atoms, negative_goal_atoms) = (task.goal.clone(), task.negative_goal.clone());
     let schemas = model.actions.clone();
     Ok(GroundTask {
         schemas,
@@ -171,8 +169,7 @@ pub fn ground(
         init,
         goal,
         negative_goal,
-        goal_atoms,
-        negative_goal_atoms,
+        asked: task.goal.clone(),
         unreachable,
         ops_before_deduplication,
         bytes,
@@ -338,14 +335,9 @@ impl GroundTask {
         &self.negative_goal
     }
 
-    /// The atoms that must not hold in the end, as it was asked.
-    pub fn negative_goal_atoms(&self) -> &[GroundAtom] {
-        &self.negative_goal_atoms
-    }
-
-    /// The goal as it was asked.
-    pub fn goal_atoms(&self) -> &[GroundAtom] {
-        &self.goal_atoms
+    /// The goal as it was asked, with what cannot be reached.
+    pub fn asked(&self) -> &Goal {
+        &self.asked
     }
 
     /// GetUnreachableGoals: goal atoms that cannot be reached even if nothing is ever deleted, in the goal's order.

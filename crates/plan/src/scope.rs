@@ -77,7 +77,7 @@ impl Scopes {
         }
         let ids: HashMap<&Symbol, Object> = task.init.objects.keys().zip(0..).collect();
         let neighbours = neighbours(task, &ids);
-        let near = task.goal_literals().flat_map(|(atom, _)| &atom.args).filter_map(|name| ids.get(name).copied());
+        let near = task.goal.literals().flat_map(|(atom, _)| &atom.args).filter_map(|name| ids.get(name).copied());
         let mut distance = distances(near, &neighbours);
         for object in constants(model).into_iter().filter_map(|name| ids.get(name)) {
             distance[*object] = Some(0);
@@ -124,8 +124,7 @@ impl Scopes {
             unknown: task.init.unknown.iter().filter(known).cloned().collect(),
         };
         let values = task.values.iter().filter(|(atom, _)| known(atom)).map(|(atom, value)| (atom.clone(), *value));
-        let (goal, negative_goal) = (task.goal.clone(), task.negative_goal.clone());
-        Cow::Owned(Task { init, goal, negative_goal, values: values.collect() })
+        Cow::Owned(Task { init, goal: task.goal.clone(), values: values.collect() })
     }
 
     /// A level, unless it has so many objects that it may as well have all.
@@ -221,7 +220,7 @@ pub fn reaches_goals_with_fewer_objects(
     while !scopes.is_whole() {
         let task = scopes.restrict(task);
         let facts = reach(model, &task, restrictions, budget)?.facts;
-        if task.goal.iter().all(|atom| facts.find(atom).is_some_and(|fact| facts.is_reached(fact))) {
+        if task.goal.required.iter().all(|atom| facts.find(atom).is_some_and(|fact| facts.is_reached(fact))) {
             return Ok(true);
         }
         scopes.advance();

@@ -172,8 +172,8 @@ type Said<'a> = (u8, &'a Symbol, Vec<Option<&'a Symbol>>, u32);
 /// The classes of two or more interchangeable objects, in the order of names.
 fn classes(model: &ActionModel, task: &Task) -> Vec<Vec<Symbol>> {
     let mut said: BTreeMap<&Symbol, Vec<Said<'_>>> = BTreeMap::new();
-    let goals = task.goal.iter().map(|atom| (1, atom, 0));
-    let negative = task.negative_goal.iter().map(|atom| (2, atom, 0));
+    let goals = task.goal.required.iter().map(|atom| (1, atom, 0));
+    let negative = task.goal.forbidden.iter().map(|atom| (2, atom, 0));
     let values = task.values.iter().map(|(atom, value)| (3, atom, *value));
     for (kind, atom, value) in
         task.init.atoms.iter().map(|atom| (0, atom, 0)).chain(goals).chain(negative).chain(values)

@@ -49,7 +49,9 @@ fn small_task(model: &ActionModel) -> Task {
                 Symbol::from(format!("{}_1", model.hierarchy.name(ty.unwrap_or(model.hierarchy.root()))))
             }
         };
-        task.goal.push(GroundAtom { predicate: atom.predicate.clone(), args: atom.args.iter().map(object).collect() });
+        task.goal
+            .required
+            .push(GroundAtom { predicate: atom.predicate.clone(), args: atom.args.iter().map(object).collect() });
     }
     task
 }

@@ -22,7 +22,7 @@ pub fn task(bytes: &[u8]) {
     let mut parser = Parser::new(sample::hierarchy(), ParseConfig::default());
     let predicates = task.goal.iter().map(|atom| (atom.predicate.clone(), atom.arity())).collect();
     match task.task(&mut parser, &predicates) {
-        Ok(planned) => assert_eq!(planned.goal, task.goal),
+        Ok(planned) => assert_eq!(planned.goal, task.goal.into()),
         Err(error) => assert_shown(&error.in_file(Path::new("task"), &parser), bytes),
     }
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use typelift_model::{ActionModel, Atom, GroundAtom, Literal, Symbol};
+use typelift_model::{ActionModel, Atom, Goal, GroundAtom, Literal, Symbol};
 
 use super::block::{Block, Visible, World};
 use super::case::Case;
@@ -11,15 +11,6 @@ use super::expand::{Expansion, ground};
 use super::invent::Inventions;
 use super::normal::Normal;
 use crate::Formula;
-
-/// What a goal became.
-#[derive(Debug, Default, PartialEq, Eq)]
-pub(super) struct Goal {
-    /// The atoms that must hold, in the order of the text.
-    pub(super) positive: Vec<GroundAtom>,
-    /// The atoms that may not.
-    pub(super) negative: Vec<GroundAtom>,
-}
 
 /// Compiles a goal for this initial state. Where it is clear that it can never hold, and no atom of the text says so, it
 /// is given an atom that never does.
@@ -42,7 +33,7 @@ pub(super) fn compile_goal(
     let mut compiled = Goal::default();
     for literal in literals {
         let Some(atom) = ground(&literal.atom) else { continue };
-        if literal.positive { compiled.positive.push(atom) } else { compiled.negative.push(atom) }
+        if literal.positive { compiled.required.push(atom) } else { compiled.forbidden.push(atom) }
     }
     Ok(compiled)
 }

@@ -211,7 +211,7 @@ fn check(domain: &Domain, problem: &Problem, limits: Limits, seeds: &[u64]) {
             actions.flat_map(|action| meaning.successors(action, &base.atoms, &state, has_costs)).collect();
         assert_eq!(compiled_successors(&with_goal, &task, base), expected, "in {:?}", base.atoms);
         let derived = with_goal.with_derived(base);
-        let reached = task.goal_literals().all(|(atom, positive)| derived.holds(atom) == positive);
+        let reached = task.goal.holds_in(&derived);
         assert_eq!(reached, meaning.holds(&problem.goal, &state, &Choice::new()), "the goal in {:?}", base.atoms);
     }
 }

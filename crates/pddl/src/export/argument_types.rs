@@ -70,7 +70,7 @@ impl ArgumentTypes {
         if let Some(task) = task {
             let ty = |name: &Symbol| constants.get(name).or_else(|| task.init.objects.get(name)).copied();
             let ty = |name: &Symbol| ty(name).unwrap_or(hierarchy.root());
-            for atom in task.init.atoms.iter().chain(task.goal_literals().map(|(atom, _)| atom)) {
+            for atom in task.init.atoms.iter().chain(task.goal.literals().map(|(atom, _)| atom)) {
                 cover(&mut predicates, hierarchy, atom, ty);
             }
             for function in task.values.keys() {

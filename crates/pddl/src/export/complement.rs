@@ -6,8 +6,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use typelift_model::{
-    ActionModel, ActionSchema, Atom, EQUALS, Effect, GroundAtom, Hierarchy, LiftedAtom, Literal, Parameter, Symbol,
-    Task, Term, TypeId,
+    ActionModel, ActionSchema, Atom, EQUALS, Effect, Goal, GroundAtom, Hierarchy, LiftedAtom, Literal, Parameter,
+    Symbol, Task, Term, TypeId,
 };
 
 use super::argument_types::constants;
@@ -59,7 +59,7 @@ impl Complements {
                 need(&literal.atom.predicate, literal.positive, places(&literal.atom, &action.parameters));
             }
         }
-        for (atom, positive) in task.iter().flat_map(|task| task.goal_literals()) {
+        for (atom, positive) in task.iter().flat_map(|task| task.goal.literals()) {
             if !positive || atom.is_equality() {
                 need(&atom.predicate, positive, atom.args.iter().cloned().map(Place::Object).collect());
             }
@@ -161,12 +161,11 @@ impl Complements {
                 });
             }
         }
-        compiled.goal.clear();
-        compiled.negative_goal.clear();
-        for (atom, positive) in task.goal_literals() {
+        compiled.goal = Goal::default();
+        for (atom, positive) in task.goal.literals() {
             let complement = self.of.get(&(atom.predicate.clone(), positive));
             let predicate = complement.map_or(&atom.predicate, |complement| &complement.name);
-            compiled.goal.push(Atom::new(predicate.clone(), atom.args.clone()));
+            compiled.goal.required.push(Atom::new(predicate.clone(), atom.args.clone()));
         }
         Ok(compiled)
     }

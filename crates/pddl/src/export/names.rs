@@ -86,7 +86,7 @@ pub(super) fn pddl(names: &PddlNames, name: &Symbol) -> Symbol {
 
 /// Every predicate with its number of arguments: the model's, and those that only the task mentions.
 pub(super) fn predicates<'a>(model: &'a ActionModel, task: Option<&'a Task>) -> BTreeMap<&'a Symbol, usize> {
-    let of_task = |task: &'a Task| task.init.atoms.iter().chain(task.goal_literals().map(|(atom, _)| atom));
+    let of_task = |task: &'a Task| task.init.atoms.iter().chain(task.goal.literals().map(|(atom, _)| atom));
     let mentioned = task.into_iter().flat_map(of_task).map(|atom: &GroundAtom| (&atom.predicate, atom.args.len()));
     let mut all: BTreeMap<&Symbol, usize> = mentioned.collect();
     all.extend(model.predicates.iter().map(|(name, arity)| (name, *arity)));

@@ -12,7 +12,7 @@ impl Writer<'_> {
         let objects = task.init.objects.iter().filter(|(name, _)| !constants.contains_key(*name));
         let mut objects: Vec<(&Symbol, TypeId)> = objects.map(|(name, ty)| (name, *ty)).collect();
         objects.sort_by_key(|(_, ty)| *ty);
-        let goal = task.goal_literals().map(|(atom, positive)| {
+        let goal = task.goal.literals().map(|(atom, positive)| {
             let formula = self.goal_atom(atom);
             if positive { formula } else { Formula::Not(Box::new(formula)) }
         });

@@ -67,10 +67,10 @@ pub(crate) fn sequences(task: &GroundTask, fdr: &Fdr, budget: &Budget) -> Result
 
 /// The goal's atoms by goal object; atoms that mention none stand alone, after them.
 fn clusters(task: &GroundTask) -> Vec<(Option<Symbol>, Vec<GroundAtom>)> {
-    let objects = task.goal_atoms().iter().filter(|atom| atom.arity() == 1).map(|atom| &atom.args[0]);
+    let objects = task.asked().required.iter().filter(|atom| atom.arity() == 1).map(|atom| &atom.args[0]);
     let mut clusters: BTreeMap<&Symbol, Vec<GroundAtom>> = objects.map(|object| (object, Vec::new())).collect();
     let mut alone = Vec::new();
-    for atom in task.goal_atoms() {
+    for atom in &task.asked().required {
         match atom.args.iter().find(|&arg| clusters.contains_key(arg)) {
             Some(object) => clusters.entry(object).or_default().push(atom.clone()),
             None => alone.push((None, vec![atom.clone()])),

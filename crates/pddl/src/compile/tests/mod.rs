@@ -209,7 +209,7 @@ fn goal(formula: Formula) -> (String, Vec<String>) {
 fn shown_goal(task: &Task) -> String {
     let one =
         |(atom, positive): (&typelift_model::GroundAtom, bool)| format!("{}{atom}", if positive { "" } else { "not " });
-    task.goal_literals().map(one).collect::<Vec<_>>().join(" & ")
+    task.goal.literals().map(one).collect::<Vec<_>>().join(" & ")
 }
 
 fn refused(domain: &Domain) -> CompileError {
