@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 use typelift::agent::{Account, Command, Ending, Episode, Experience, Input, Options, StepResult};
 use typelift::learn::{evidence_of, learn};
-use typelift::model::{ActionModel, Budget, GroundAtom, GroundCall, Hierarchy, ParseConfig, Plan, State, Symbol};
+use typelift::model::{ActionModel, Budget, GroundAtom, GroundCall, Hierarchy, ParseConfig, Plan, State, Stop, Symbol};
 use typelift::plan::Exclusion;
 use typelift::world::{Dataset, Parser, Scene, Trace, TraceAction};
 
@@ -176,7 +176,7 @@ fn after_a_time_out_it_looks() {
     assert_eq!(it.step(Input::TimedOut), Command::Observe);
     assert_eq!(it.proposed(Input::Observation(whole)), [cut("saw_2", "b")]);
     let account = it.done(Input::Stop);
-    assert_eq!(account.ending, Ending::Stopped);
+    assert_eq!(account.ending, Ending::Stopped(Stop::Cancelled));
     assert_eq!(account.failures.iter().map(|f| f.result).collect::<Vec<_>>(), [StepResult::TimedOut]);
     assert_eq!(account.actions, 2);
 }

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use typelift::agent::{Account, Confirmation, Ending, Event, Experience, Options, StepResult};
 use typelift::imagine;
-use typelift::model::{GroundCall, Plan, Step, Symbol};
+use typelift::model::{GroundCall, Plan, Step, Stop, Symbol};
 use typelift::plan::Exclusion;
 use typelift::world::{Acted, World};
 use typelift_kitchen::{Kitchen, KitchenTask, faults, tasks};
@@ -357,7 +357,7 @@ fn whoever_is_asked_can_stop_it() {
         let mut confirm =
             |plan: &Plan| if first_imagined(plan).is_some() { Confirmation::Stop } else { Confirmation::Approve };
         let Ran { account, .. } = run_in(&mut world, &model, &task, 0, &options, Experience::new(), &mut confirm);
-        assert_eq!(account.ending, Ending::Stopped);
+        assert_eq!(account.ending, Ending::Stopped(Stop::Cancelled));
         assert_eq!((account.proposals, account.failures.len()), (2, 1), "what went before is in the account");
     }
 }

@@ -220,7 +220,7 @@ fn with_patience(road: &(ActionModel, Task), strategy: Strategy) -> (Plan, Plann
     for stops in 0.. {
         match planner.next_plan(&budget(stops)) {
             Outcome::Solved(plan) => return (plan, planner, stops),
-            outcome => assert_eq!(outcome, Outcome::OutOfTime),
+            outcome => assert_eq!(outcome, Outcome::Stopped(Stop::Time)),
         }
     }
     unreachable!("it ends")
@@ -240,7 +240,7 @@ fn however_often_it_is_stopped_the_plan_is_the_same() {
         let plan = loop {
             match step_by_step.next_plan(&Budget::with_expansions(1)) {
                 Outcome::Solved(plan) => break plan,
-                outcome => assert_eq!(outcome, Outcome::GaveUp),
+                outcome => assert_eq!(outcome, Outcome::Stopped(Stop::Expansions)),
             }
         };
         assert_eq!((plan, step_by_step.report()), (expected, unlimited.report()), "{strategy}");

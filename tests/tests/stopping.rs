@@ -23,7 +23,7 @@ fn plans(planner: &mut Planner, wanted: usize, budget: &Budget) -> (Vec<Plan>, u
     while plans.len() < wanted {
         match planner.next_plan(budget) {
             Outcome::Solved(plan) => plans.push(plan),
-            Outcome::OutOfTime | Outcome::OutOfMemory => stops += 1,
+            Outcome::Stopped(Stop::Time | Stop::Memory) => stops += 1,
             _ => break,
         }
     }
@@ -70,7 +70,7 @@ fn a_search_that_ran_out_of_memory_goes_on_with_more() {
         match planner.next_plan(&Budget { bytes: Some(bytes), ..Budget::default() }) {
             Outcome::Solved(plan) => found.push(plan),
             outcome => {
-                assert_eq!(outcome, Outcome::OutOfMemory);
+                assert_eq!(outcome, Outcome::Stopped(Stop::Memory));
                 ends += 1;
                 bytes += 10_000;
             }

@@ -1,6 +1,6 @@
 //! The account of an episode: what was tried, what failed and was excluded and why, and how it ended.
 
-use typelift_model::{GroundCall, Plan, Symbol};
+use typelift_model::{GroundCall, Plan, Stop, Symbol};
 use typelift_plan::{Exclusion, Explanation};
 
 use crate::monitor::StepResult;
@@ -17,14 +17,21 @@ pub enum Ending {
     Circular,
     /// The proposals allowed are used up.
     ProposalLimit(u64),
-    /// The expansions allowed are used up.
-    GaveUp,
-    /// The time allowed is used up.
-    OutOfTime,
-    /// The bytes allowed are used up.
-    OutOfMemory,
-    /// Somebody stopped it.
-    Stopped,
+    /// The budget ended planning, or a person the episode.
+    Stopped(Stop),
+}
+
+impl Ending {
+    /// The word for it wherever a program reads it.
+    pub const fn word(&self) -> &'static str {
+        match self {
+            Self::Solved => "solved",
+            Self::NoPlan(_) => "no_plan",
+            Self::Circular => "circular",
+            Self::ProposalLimit(_) => "proposal_limit",
+            Self::Stopped(stop) => stop.word(),
+        }
+    }
 }
 
 /// A step that failed.

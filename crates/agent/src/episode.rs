@@ -92,7 +92,7 @@ impl Episode {
             relaxed: false,
             bans_only: false,
             account: Account {
-                ending: Ending::Stopped,
+                ending: Ending::Stopped(Stop::Cancelled),
                 proposals: 0,
                 actions: 0,
                 plan: None,
@@ -129,7 +129,7 @@ impl Episode {
     pub fn step(&mut self, input: Input, observer: &mut dyn Observer) -> Result<Command, ProposeError> {
         match (&self.phase, self.completed(input)) {
             (Phase::Over, _) => Ok(Command::Done(Box::new(self.account.clone()))),
-            (_, Input::Stop) => Ok(self.end(Ending::Stopped, observer)),
+            (_, Input::Stop) => Ok(self.end(Ending::Stopped(Stop::Cancelled), observer)),
             (Phase::New, _) => {
                 self.phase = Phase::AwaitingReset;
                 Ok(Command::Reset)
@@ -193,7 +193,7 @@ impl Episode {
         }
         let mut proposal = match self.plan_with_last_resorts(observer) {
             Ok(proposal) => proposal,
-            Err(ProposeError::Stopped(stop)) => return Ok(self.end(ending(stop), observer)),
+            Err(ProposeError::Stopped(stop)) => return Ok(self.end(Ending::Stopped(stop), observer)),
             Err(error) => return Err(error),
         };
         // A plan that did not lead to the goal from this very state, though no step of it failed, is not begun again.
@@ -206,7 +206,9 @@ impl Episode {
             proposal.outcome = proposal.next_plan(&self.budget)?;
         }
         let ending = match &proposal.outcome {
-            Outcome::Unsolvable | Outcome::NoMorePlans | Outcome::GaveUp if circular => Ending::Circular,
+            Outcome::Unsolvable | Outcome::NoMorePlans | Outcome::Stopped(Stop::Expansions) if circular => {
+                Ending::Circular
+            }
             Outcome::Solved(plan) => {
                 self.planned_in = self.state.clone();
                 self.plan = plan.clone();
@@ -221,10 +223,7 @@ impl Episode {
                 return Ok(Command::Propose(self.plan.clone()));
             }
             Outcome::Unsolvable | Outcome::NoMorePlans => Ending::NoPlan(proposal.explain()),
-            Outcome::GaveUp => Ending::GaveUp,
-            Outcome::OutOfTime => Ending::OutOfTime,
-            Outcome::OutOfMemory => Ending::OutOfMemory,
-            Outcome::Cancelled => Ending::Stopped,
+            Outcome::Stopped(stop) => Ending::Stopped(*stop),
         };
         Ok(self.end(ending, observer))
     }
@@ -233,7 +232,8 @@ impl Episode {
     /// from where it is then tries without strictness, and at last without any exclusion. Ground actions that failed
     /// stay banned throughout.
     fn plan_with_last_resorts(&mut self, observer: &mut dyn Observer) -> Result<Proposal, ProposeError> {
-        let none = |proposal: &Proposal| matches!(proposal.outcome, Outcome::Unsolvable | Outcome::GaveUp);
+        let none =
+            |proposal: &Proposal| matches!(proposal.outcome, Outcome::Unsolvable | Outcome::Stopped(Stop::Expansions));
         self.relaxed = false;
         let options = self.options.clone();
         let mut proposal = self.plan_once(&options, observer)?;
@@ -314,7 +314,7 @@ impl Episode {
             return self.propose(observer);
         }
         if let Some(stop) = self.budget.stopped() {
-            return Ok(self.end(ending(stop), observer));
+            return Ok(self.end(Ending::Stopped(stop), observer));
         }
         self.phase = Phase::AwaitingResult;
         Ok(Command::Act(self.plan.steps[self.next_step].call.clone()))
@@ -444,13 +444,5 @@ impl Episode {
             return Ok(Command::Reset);
         }
         self.propose(observer)
-    }
-}
-
-fn ending(stop: Stop) -> Ending {
-    match stop {
-        Stop::Memory => Ending::OutOfMemory,
-        Stop::Time => Ending::OutOfTime,
-        Stop::Cancelled => Ending::Stopped,
     }
 }

@@ -112,9 +112,9 @@ impl PlannerCommand {
         // Fast Downward's exit codes, which others have taken over.
         match status.and_then(|status| status.code()) {
             Some(10 | 11) => Ok(Outcome::Unsolvable),
-            Some(12) => Ok(Outcome::GaveUp),
-            Some(20 | 22) => Ok(Outcome::OutOfMemory),
-            Some(21 | 23) => Ok(Outcome::OutOfTime),
+            Some(12) => Ok(Outcome::Stopped(Stop::Expansions)),
+            Some(20 | 22) => Ok(Outcome::Stopped(Stop::Memory)),
+            Some(21 | 23) => Ok(Outcome::Stopped(Stop::Time)),
             _ => {
                 let how = match status.map(|status| (status.success(), status)) {
                     Some((true, _)) => "ended without a plan".to_owned(),

@@ -58,21 +58,15 @@ struct ExclusionReport {
     count: u64,
 }
 
-/// How an episode ended, as a word and, if it is not solved, in words.
-fn ending(account: &Account) -> (&'static str, Option<String>) {
-    match &account.ending {
-        Ending::Solved => ("solved", None),
-        Ending::NoPlan(explanation) => ("no_plan", Some(format!("nothing left to try: {explanation}"))),
-        Ending::Circular => (
-            "circular",
-            Some("the plan that is left went as expected before, from this very state, and did not lead to the goal: something happens besides what the model says".to_owned()),
-        ),
-        Ending::ProposalLimit(n) => ("proposal_limit", Some(format!("gave up after {}", count(*n, "proposal")))),
-        Ending::GaveUp => ("gave_up", Some("planning gave up at the limit of expansions".to_owned())),
-        Ending::OutOfTime => ("out_of_time", Some("out of time".to_owned())),
-        Ending::OutOfMemory => ("out_of_memory", Some("out of memory".to_owned())),
-        Ending::Stopped => ("stopped", Some("stopped".to_owned())),
-    }
+/// Why the goal was not seen to hold, if it was not.
+fn why_not(ending: &Ending) -> Option<String> {
+    Some(match ending {
+        Ending::Solved => return None,
+        Ending::NoPlan(explanation) => format!("nothing left to try: {explanation}"),
+        Ending::Circular => "the plan that is left went as expected before, from this very state, and did not lead to the goal: something happens besides what the model says".to_owned(),
+        Ending::ProposalLimit(n) => format!("gave up after {}", count(*n, "proposal")),
+        Ending::Stopped(stop) => stop.to_string(),
+    })
 }
 
 fn exclusion_text(exclusion: &Exclusion) -> String {
@@ -84,7 +78,6 @@ fn exclusion_text(exclusion: &Exclusion) -> String {
 
 /// The account of a task, for people.
 pub(crate) fn summary(name: &str, account: &Account, planning_ms: u128) -> String {
-    let (_, why) = ending(account);
     let proposals = count(account.proposals, "proposal");
     let actions = count(account.actions, "action");
     let mut text = match &account.plan {
@@ -118,20 +111,19 @@ pub(crate) fn summary(name: &str, account: &Account, planning_ms: u128) -> Strin
     if account.relaxed {
         text += "  actions were used although some of their effects held already, since nothing else was left\n";
     }
-    for line in why.iter().flat_map(|why| why.lines()) {
+    for line in why_not(&account.ending).iter().flat_map(|why| why.lines()) {
         text += &format!("  {line}\n");
     }
     text
 }
 
 pub(crate) fn report<'a>(name: &'a str, account: &Account, experience: &Experience, seconds: f64) -> TaskReport<'a> {
-    let (word, why) = ending(account);
     let plan = account.plan.as_ref().filter(|_| account.solved());
     TaskReport {
         task: name,
         solved: account.solved(),
-        ending: word,
-        why,
+        ending: account.ending.word(),
+        why: why_not(&account.ending),
         proposals: account.proposals,
         actions: account.actions,
         plan_length: plan.map(Plan::len),

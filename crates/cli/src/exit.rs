@@ -2,6 +2,8 @@
 
 use std::process::ExitCode;
 
+use typelift::model::Stop;
+
 /// How the program ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Exit {
@@ -31,6 +33,17 @@ pub(crate) enum Exit {
     InvalidPlan = 39,
     /// Somebody stopped it.
     Interrupted = 130,
+}
+
+impl From<Stop> for Exit {
+    fn from(stop: Stop) -> Self {
+        match stop {
+            Stop::Expansions => Self::NotAchieved,
+            Stop::Memory => Self::OutOfMemory,
+            Stop::Time => Self::OutOfTime,
+            Stop::Cancelled => Self::Interrupted,
+        }
+    }
 }
 
 impl From<Exit> for ExitCode {

@@ -107,7 +107,7 @@ impl From<ModelFileError> for Failure {
 impl From<ProposeError> for Failure {
     fn from(error: ProposeError) -> Self {
         match error {
-            ProposeError::Stopped(stop) => Self::new(stop_exit(stop), error),
+            ProposeError::Stopped(stop) => Self::new(stop.into(), error),
             ProposeError::External(ExternalFailure::Failed(message)) => {
                 Self::new(Exit::Planner, format!("the planner failed: {message}"))
             }
@@ -137,15 +137,6 @@ impl From<RunError> for Failure {
 /// What files and programs say is repeated, but not obeyed.
 fn printable_lines(text: &str) -> String {
     text.split('\n').map(printable).collect::<Vec<_>>().join("\n")
-}
-
-/// The exit code of what was ended before the search.
-pub(crate) fn stop_exit(stop: Stop) -> Exit {
-    match stop {
-        Stop::Memory => Exit::OutOfMemory,
-        Stop::Time => Exit::OutOfTime,
-        Stop::Cancelled => Exit::Interrupted,
-    }
 }
 
 impl Failure {

@@ -13,7 +13,7 @@ use typelift::plan::{Explanation, Outcome, Restrictions};
 use typelift::world::write_file;
 
 use crate::exit::Exit;
-use crate::failure::{Failure, stop_exit};
+use crate::failure::Failure;
 use crate::files::{keep_inputs, read_model_input};
 use crate::limits::{Clock, Interrupt, Limits};
 use crate::plan_text::{imagined_note, numbered_steps, plan_file, plan_size};
@@ -152,7 +152,11 @@ impl Plan {
             };
         };
         self.write_plans(output.as_deref(), &plans, &proposal.model, &task)?;
-        let exit = if plans.is_empty() { exit_of(&last) } else { Exit::Success };
+        let exit = match &last {
+            _ if !plans.is_empty() => Exit::Success,
+            Outcome::Stopped(stop) => (*stop).into(),
+            _ => Exit::Unsolvable,
+        };
         // Of a search that was ended early nothing can be said.
         let searched = matches!(last, Outcome::Unsolvable | Outcome::NoMorePlans);
         let explanation = (plans.is_empty() && searched).then(|| proposal.explain());
@@ -177,7 +181,7 @@ impl Plan {
         let limits = if self.planner.is_given() { Limits::default() } else { self.limits };
         let watchdog = Watchdog::start(clock, limits, move |stop| {
             // There is nobody left to tell if printing fails.
-            say_stop(stop, json, clock.elapsed()).unwrap_or(stop_exit(stop))
+            say_stop(stop, json, clock.elapsed()).unwrap_or(stop.into())
         });
         let begun = self.begin(clock, budget, quiet);
         watchdog.call_off();
@@ -274,10 +278,10 @@ impl Plan {
         budget: &Budget,
     ) {
         let ending = match outcome {
-            Outcome::GaveUp if self.planner.is_given() => "the planner gave up",
+            Outcome::Stopped(Stop::Expansions) if self.planner.is_given() => "the planner gave up".to_owned(),
             outcome => ending(outcome),
         };
-        let why = explanation.map_or_else(|| ending.to_owned(), ToString::to_string);
+        let why = explanation.map_or(ending, ToString::to_string);
         for line in why.lines() {
             anstream::eprintln!("{BAD}no plan{BAD:#}: {line}");
         }
@@ -307,40 +311,21 @@ impl Plan {
 
 /// Says that the search did not even begin.
 fn say_stop(stop: Stop, json: bool, took: Duration) -> Result<Exit, Failure> {
-    let exit = stop_exit(stop);
-    let outcome = match stop {
-        Stop::Memory => "out_of_memory",
-        Stop::Time => "out_of_time",
-        Stop::Cancelled => "stopped",
-    };
     if json {
-        let answer = Answer { outcome, seconds: took.as_secs_f64(), ..Answer::default() };
+        let answer = Answer { outcome: stop.word(), seconds: took.as_secs_f64(), ..Answer::default() };
         writeln!(anstream::stdout(), "{}", serde_json::to_string_pretty(&answer).unwrap_or_default())?;
     } else {
         anstream::eprintln!("{BAD}no plan{BAD:#}: {}", ProposeError::Stopped(stop));
     }
-    Ok(exit)
+    Ok(stop.into())
 }
 
-fn ending(outcome: &Outcome) -> &'static str {
+/// Why the search went no further.
+fn ending(outcome: &Outcome) -> String {
     match outcome {
-        Outcome::Solved(_) => "found",
-        Outcome::Unsolvable | Outcome::NoMorePlans => "everything was searched",
-        Outcome::GaveUp => "gave up at the limit of expansions",
-        Outcome::OutOfTime => "out of time",
-        Outcome::OutOfMemory => "out of memory",
-        Outcome::Cancelled => "stopped",
-    }
-}
-
-fn exit_of(outcome: &Outcome) -> Exit {
-    match outcome {
-        Outcome::Solved(_) | Outcome::NoMorePlans => Exit::Success,
-        Outcome::Unsolvable => Exit::Unsolvable,
-        Outcome::GaveUp => Exit::NotAchieved,
-        Outcome::OutOfTime => Exit::OutOfTime,
-        Outcome::OutOfMemory => Exit::OutOfMemory,
-        Outcome::Cancelled => Exit::Interrupted,
+        Outcome::Solved(_) => "found".to_owned(),
+        Outcome::Unsolvable | Outcome::NoMorePlans => "everything was searched".to_owned(),
+        Outcome::Stopped(stop) => stop.to_string(),
     }
 }
 
@@ -359,15 +344,7 @@ fn answer(
         imagined: imagined_note(step, &proposal.model.hierarchy),
     };
     Answer {
-        outcome: match outcome {
-            _ if !plans.is_empty() => "solved",
-            Outcome::Solved(_) => "solved",
-            Outcome::Unsolvable | Outcome::NoMorePlans => "unsolvable",
-            Outcome::GaveUp => "gave_up",
-            Outcome::OutOfTime => "out_of_time",
-            Outcome::OutOfMemory => "out_of_memory",
-            Outcome::Cancelled => "stopped",
-        },
+        outcome: if plans.is_empty() { outcome.word() } else { "solved" },
         plans: plans
             .iter()
             .map(|plan| PlanJson { cost: plan.cost(), steps: plan.steps.iter().map(step).collect() })

@@ -12,7 +12,7 @@ use clap::ValueEnum;
 use typelift::agent::{Confirmation, Ending, Episode, Experience, Options, run};
 use typelift::bridge::Bridge;
 use typelift::imagine;
-use typelift::model::{ActionModel, Plan, State, Task};
+use typelift::model::{ActionModel, Plan, State, Stop, Task};
 use typelift::world::{FileError, Parser, Reset, Scene, TaskFile, World, WorldError};
 use typelift_kitchen::Kitchen;
 
@@ -194,7 +194,7 @@ impl Run {
                 write!(out, "{}", summary(&name, &account, narrator.planning.as_millis()))?;
             }
             out.flush()?;
-            if account.ending == Ending::Stopped {
+            if account.ending == Ending::Stopped(Stop::Cancelled) {
                 world.close()?;
                 return Ok(if interrupt.is_set() { Exit::Interrupted } else { Exit::NotAchieved });
             }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use typelift::agent::{Account, Confirmation, Ending, Episode, Event, Experience, Observer, Options, RunError, run};
-use typelift::model::{ActionModel, Budget, Plan};
+use typelift::model::{ActionModel, Budget, Plan, Stop};
 use typelift::world::{Parser, Reset, World};
 use typelift_kitchen::{Kitchen, KitchenTask};
 
@@ -90,16 +90,12 @@ impl Observer for Stopwatch {
     }
 }
 
-/// How an episode ended, as a word.
-pub fn ending_word(ending: &Ending) -> &'static str {
-    match ending {
-        Ending::Solved => "solved",
-        Ending::NoPlan(_) => "no plan",
-        Ending::Circular => "circular",
-        Ending::ProposalLimit(_) => "proposals used up",
-        Ending::GaveUp => "expansions used up",
-        Ending::OutOfTime => "out of time",
-        Ending::OutOfMemory => "out of memory",
-        Ending::Stopped => "stopped",
-    }
+/// How an episode ended, as it is written into tables.
+pub fn ending_word(ending: &Ending) -> String {
+    ending.word().replace('_', " ")
+}
+
+/// Whether a record with this ending was cut off by the clock: on another machine it may be another.
+pub fn is_out_of_time(ending: &str) -> bool {
+    ending == ending_word(&Ending::Stopped(Stop::Time))
 }

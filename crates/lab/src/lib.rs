@@ -24,7 +24,7 @@ mod statistics;
 mod table;
 mod variant;
 
-pub use attempt::{Attempt, Setting, attempt, attempt_in, ending_word};
+pub use attempt::{Attempt, Setting, attempt, attempt_in, ending_word, is_out_of_time};
 pub use csv::Csv;
 pub use demonstrations::{
     DemonstrationsOptions, DemonstrationsResult, Gain, Size, Subset, SubsetRecord, SubsetRun, demonstrations_experiment,

@@ -3,10 +3,11 @@
 use std::fmt;
 use std::sync::Arc;
 
+use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 use thiserror::Error;
 
-/// Why an algorithm ended before it was done.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+/// Why an algorithm ended before it was done. It is displayed for people; [`Stop::word`] is for programs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Error)]
 pub enum Stop {
     /// The time allowed is used up.
     #[error("out of time")]
@@ -14,9 +15,41 @@ pub enum Stop {
     /// The memory allowed is used up.
     #[error("out of memory")]
     Memory,
-    /// Somebody asked it to stop.
+    /// It was asked to stop.
     #[error("stopped")]
     Cancelled,
+    /// The expansions allowed to one search are used up.
+    #[error("gave up at the limit of expansions")]
+    Expansions,
+}
+
+impl Stop {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Time, Self::Memory, Self::Cancelled, Self::Expansions];
+
+    /// The word for it wherever a program reads it.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Time => "out_of_time",
+            Self::Memory => "out_of_memory",
+            Self::Cancelled => "stopped",
+            Self::Expansions => "gave_up",
+        }
+    }
+}
+
+impl Serialize for Stop {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.word())
+    }
+}
+
+impl<'de> Deserialize<'de> for Stop {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let word = String::deserialize(deserializer)?;
+        let stop = Self::ALL.into_iter().find(|stop| stop.word() == word);
+        stop.ok_or_else(|| de::Error::custom(format_args!("`{word}` is no reason to stop")))
+    }
 }
 
 /// Limits that an algorithm polls. The default has none.

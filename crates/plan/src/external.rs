@@ -5,7 +5,7 @@ use std::fmt::Debug;
 use thiserror::Error;
 use typelift_model::{ActionModel, Budget, Task};
 
-use crate::Outcome;
+use crate::outcome::Outcome;
 
 /// A planner that is asked instead of [`Planner`](crate::Planner).
 pub trait ExternalPlanner: Debug + Send + Sync {

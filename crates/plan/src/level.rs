@@ -7,9 +7,10 @@ use crate::fact::FactId;
 use crate::fdr::{ActionIndex, Fdr};
 use crate::ground::{GroundTask, ground};
 use crate::landmark::exclusive_goals;
+use crate::outcome::Outcome;
 use crate::planner::Options;
 use crate::poll::Poll;
-use crate::search::{Found, Outcome, Report, Search, Space};
+use crate::search::{Found, Report, Search, Space};
 use crate::strategy::{Stage, Strategy};
 use crate::symmetry::Symmetry;
 
@@ -98,8 +99,8 @@ impl Level {
         if !running.strategy.has_one_search() && !running.found.is_empty() {
             // A greedy search closes each state after its first way there; others are found by another search.
             let turned = running.turn_to(Strategy::OrderedLandmarks, Stage::First, &self.ground, self.plans, budget);
-            if let Err(cut) = turned {
-                return cut.into();
+            if let Err(stop) = turned {
+                return stop.into();
             }
         }
         running.next(&self.ground, None, budget)
@@ -109,8 +110,8 @@ impl Level {
         let Some(running) = &mut self.running else { return Outcome::Unsolvable };
         if !running.strategy.has_one_search() && !running.found.is_empty() && running.stage == Stage::First {
             let (strategy, stage) = (running.strategy, running.stage.next());
-            if let Err(cut) = running.turn_to(strategy, stage, &self.ground, self.plans, budget) {
-                return cut.into();
+            if let Err(stop) = running.turn_to(strategy, stage, &self.ground, self.plans, budget) {
+                return stop.into();
             }
         }
         let outcome = running.next(&self.ground, Some(cost), budget);
@@ -189,7 +190,7 @@ impl Running {
                 }
                 Found::Nothing if self.found.is_empty() && cost_bound.is_none() => return Outcome::Unsolvable,
                 Found::Nothing => return Outcome::NoMorePlans,
-                Found::Cut(outcome) => return outcome,
+                Found::Stopped(stop) => return stop.into(),
             }
         }
     }

@@ -6,8 +6,9 @@ use crate::Restrictions;
 use crate::explain::{Explanation, unreachable};
 use crate::ground::{GroundTask, TieOrder};
 use crate::level::Level;
+use crate::outcome::Outcome;
 use crate::scope::{EAGERLY, LAZILY, Scopes};
-use crate::search::{Outcome, Report};
+use crate::search::Report;
 use crate::strategy::Strategy;
 
 /// How plans are looked for.
@@ -108,9 +109,9 @@ impl Planner {
         let mut budget = budget.clone();
         loop {
             if self.over
-                && let Err(cut) = self.grow(&budget)
+                && let Err(stop) = self.grow(&budget)
             {
-                return cut.into();
+                return stop.into();
             }
             let before = self.level.report().expansions;
             // With fewer objects not everything is searched, however long it takes.
@@ -129,7 +130,7 @@ impl Planner {
                 Outcome::Unsolvable if self.scopes.is_whole() && !self.found.is_empty() => return Outcome::NoMorePlans,
                 outcome if self.scopes.is_whole() => return outcome,
                 Outcome::Unsolvable | Outcome::NoMorePlans => self.over = true,
-                Outcome::GaveUp if budget.expansions != Some(0) => self.over = true,
+                Outcome::Stopped(Stop::Expansions) if budget.expansions != Some(0) => self.over = true,
                 outcome => return outcome,
             }
         }

@@ -54,7 +54,7 @@ fn growth_that_is_cut_says_where() {
     folder.run("lab growth --quick --time-limit 0s -o G -q").succeeds();
     let growth = folder.json("G/growth.json");
     let points = growth["points"].as_array().expect("points");
-    assert!(points.iter().all(|point| point["end"] == "time"), "{growth}");
+    assert!(points.iter().all(|point| point["end"] == "out_of_time"), "{growth}");
     assert_eq!(growth["fits"], Value::Array(Vec::new()));
     assert!(folder.read("G/growth_transitions_time.svg").contains("random play, cut at 100"));
 }

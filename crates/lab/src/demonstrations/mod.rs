@@ -10,6 +10,8 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
+use typelift::agent::Ending;
+use typelift::model::Stop;
 use typelift_kitchen::{Demonstration, KitchenTask, demonstrations, tasks};
 
 use crate::attempt::{Setting, attempt};
@@ -122,7 +124,7 @@ impl Experiment for SubsetExperiment<'_> {
                 return Ok(None);
             }
             record.expansions += done.account.expansions;
-            record.out_of_time += usize::from(done.account.ending == typelift::agent::Ending::OutOfTime);
+            record.out_of_time += usize::from(done.account.ending == Ending::Stopped(Stop::Time));
             if done.account.solved() {
                 record.solved.insert(task.name.clone(), done.account.proposals);
             }

@@ -55,7 +55,7 @@ pub(super) fn outcome(account: &Account) -> Outcome {
     };
     let excluded: BTreeSet<String> = account.failures.iter().flat_map(|f| &f.excluded).map(exclusion).collect();
     Outcome {
-        ending: ending_word(&account.ending).to_owned(),
+        ending: ending_word(&account.ending),
         why,
         proposals: account.proposals,
         actions: account.actions,

@@ -1,7 +1,7 @@
 //! Learning from a stream of transitions, measured: each is observed once and forgotten.
 
 use typelift::learn::{Options, learn, observe};
-use typelift::model::Evidence;
+use typelift::model::{Evidence, Stop};
 use typelift::world::Transition;
 use typelift_kitchen::hierarchy;
 
@@ -29,7 +29,7 @@ pub(crate) fn measure(transitions: u64, seconds: f64) -> Measurement {
         }
         observing += begun.seconds();
         if observing > seconds {
-            end = End::Time;
+            end = End::Stopped(Stop::Time);
             break;
         }
     }
@@ -62,6 +62,6 @@ mod tests {
 
     #[test]
     fn no_time_cuts_it() {
-        assert_eq!(measure(400, 0.0).end, End::Time);
+        assert_eq!(measure(400, 0.0).end, End::Stopped(Stop::Time));
     }
 }

@@ -4,6 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
+use typelift::model::Stop;
 
 /// What grows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -71,12 +72,22 @@ impl FromStr for Point {
 pub enum End {
     /// With what was to be found.
     Finished,
-    /// The time allowed was used up.
-    Time,
-    /// The memory allowed was used up.
-    Memory,
     /// With no plan: a defect, since there is one.
     NoPlan,
+    /// The allowance ended it.
+    #[serde(untagged)]
+    Stopped(Stop),
+}
+
+impl End {
+    /// The word that it is written as.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Finished => "finished",
+            Self::NoPlan => "no_plan",
+            Self::Stopped(stop) => stop.word(),
+        }
+    }
 }
 
 /// What came of measuring one point; what does not apply or was not reached is left out.
@@ -137,6 +148,16 @@ impl Measurement {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn endings_are_written_as_their_words() {
+        for end in [End::Finished, End::NoPlan].into_iter().chain(Stop::ALL.map(End::Stopped)) {
+            let written = serde_json::to_string(&end).expect("a word");
+            assert_eq!(written, format!("\"{}\"", end.word()));
+            assert_eq!(serde_json::from_str::<End>(&written).expect("written so"), end);
+        }
+        assert!(serde_json::from_str::<End>("\"tired\"").is_err());
+    }
 
     #[test]
     fn points_are_read_as_they_are_written() {

@@ -119,6 +119,8 @@ impl Experiment for Growth<'_> {
 
 #[cfg(test)]
 mod tests {
+    use typelift::model::Stop;
+
     use super::*;
 
     const ALLOWANCE: Allowance = Allowance { seconds: 60.0, bytes: 1 << 30 };
@@ -144,8 +146,8 @@ mod tests {
     #[test]
     fn what_is_not_allowed_cuts_a_point() {
         let point = "storeroom 100".parse().expect("a point");
-        assert_eq!(measure(point, Allowance { seconds: 0.0, ..ALLOWANCE }).end, End::Time);
-        assert_eq!(measure(point, Allowance { bytes: 1, ..ALLOWANCE }).end, End::Memory);
+        assert_eq!(measure(point, Allowance { seconds: 0.0, ..ALLOWANCE }).end, End::Stopped(Stop::Time));
+        assert_eq!(measure(point, Allowance { bytes: 1, ..ALLOWANCE }).end, End::Stopped(Stop::Memory));
     }
 
     #[test]

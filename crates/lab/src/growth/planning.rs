@@ -51,14 +51,12 @@ fn once(model: &ActionModel, task: &Task, allowance: Allowance) -> Measurement {
         Ok(proposal) => {
             let (end, steps) = match &proposal.outcome {
                 Outcome::Solved(plan) => (End::Finished, Some(plan.len())),
-                Outcome::OutOfMemory => (End::Memory, None),
-                Outcome::OutOfTime => (End::Time, None),
+                Outcome::Stopped(stop) => (End::Stopped(*stop), None),
                 _ => (End::NoPlan, None),
             };
             (end, Some(proposal.report()), steps)
         }
-        Err(ProposeError::Stopped(Stop::Memory)) => (End::Memory, None, None),
-        Err(ProposeError::Stopped(_)) => (End::Time, None, None),
+        Err(ProposeError::Stopped(stop)) => (End::Stopped(stop), None, None),
         Err(_) => (End::NoPlan, None, None),
     };
     Measurement {

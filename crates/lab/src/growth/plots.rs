@@ -180,14 +180,12 @@ impl GrowthResult {
     pub fn csv(&self) -> String {
         let mut csv = Csv::new(&COLUMNS);
         for Measured { point, measurement: m } in &self.points {
-            let end = match m.end {
-                End::Finished => "finished",
-                End::Time => "time",
-                End::Memory => "memory",
-                End::NoPlan => "no_plan",
-            };
-            let first =
-                [point.series.name().to_owned(), point.size.to_string(), end.to_owned(), format!("{:.6}", m.seconds)];
+            let first = [
+                point.series.name().to_owned(),
+                point.size.to_string(),
+                m.end.word().to_owned(),
+                format!("{:.6}", m.seconds),
+            ];
             let planned = [m.peak_bytes, m.ground_actions, m.expansions, m.search_bytes, m.steps];
             let learned = [m.actions, m.individual_actions, m.model_bytes];
             csv.row(first.into_iter().chain(planned.into_iter().chain(learned).map(optional)));
@@ -222,12 +220,14 @@ impl GrowthResult {
 
 #[cfg(test)]
 mod tests {
+    use typelift::model::Stop;
+
     use super::*;
 
     fn result() -> GrowthResult {
         let mut measured = BTreeMap::new();
         for size in [32, 100, 320, 1000] {
-            let end = if size == 1000 { End::Time } else { End::Finished };
+            let end = if size == 1000 { End::Stopped(Stop::Time) } else { End::Finished };
             let seconds = if size == 1000 { 60.0 } else { 1e-6 * (size * size) as f64 };
             let mut measurement = Measurement::new(end, seconds);
             measurement.peak_bytes = Some(size << 20);

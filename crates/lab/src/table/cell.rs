@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use typelift_kitchen::KitchenTask;
 
+use crate::attempt::is_out_of_time;
 use crate::published::{PublishedCell, published};
 use crate::statistics::{mean_and_sd, median};
 use crate::table::{TableRecord, TableRun};
@@ -112,7 +113,7 @@ pub(super) fn cells(tasks: &[KitchenTask], records: &BTreeMap<TableRun, TableRec
                 variant,
                 runs: own.len(),
                 solved: solved.len(),
-                out_of_time: own.iter().filter(|record| record.ending == "out of time").count(),
+                out_of_time: own.iter().filter(|record| is_out_of_time(&record.ending)).count(),
                 proposals: median(solved.iter().map(|record| record.proposals as f64)),
                 plan_length: median(solved.iter().filter_map(|record| record.plan_length).map(|n| n as f64)),
                 imagined_steps: median(solved.iter().filter_map(|record| record.imagined_steps).map(|n| n as f64)),

@@ -140,7 +140,7 @@ impl Experiment for TableExperiment {
         let plan = account.plan.as_ref().filter(|_| account.solved());
         let imagined = |plan: &Plan| plan.steps.iter().filter(|step| step.imagined.is_some()).count();
         Ok(Some(TableRecord {
-            ending: ending_word(&account.ending).to_owned(),
+            ending: ending_word(&account.ending),
             proposals: account.proposals,
             plan_length: plan.map(Plan::len),
             imagined_steps: plan.map(imagined),

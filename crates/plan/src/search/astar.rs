@@ -8,9 +8,9 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use typelift_model::{Budget, HashSet};
+use typelift_model::{Budget, HashSet, Stop};
 
-use super::{Found, Outcome, Report, Search, Space};
+use super::{Found, Report, Search, Space};
 use crate::fdr::{ActionIndex, Registry, StateId};
 use crate::heuristic::{Heuristic, Reached, Step};
 use crate::poll::Poll;
@@ -194,7 +194,7 @@ impl Search for AStar {
             }
             if limit.is_some_and(|limit| self.expansions >= limit) {
                 self.open.push(Reverse((0, 0, id)));
-                return Found::Cut(Outcome::GaveUp);
+                return Found::Stopped(Stop::Expansions);
             }
             self.expansions += 1;
             self.note_closest(space, node.state);
@@ -203,10 +203,10 @@ impl Search for AStar {
                 // A node that is left half expanded is expanded again: what is known already is not inserted twice.
                 let is_full = budget.bytes.is_some_and(|limit| self.bytes() + space.bytes > limit);
                 let work = 1 + space.task.domains.len() + space.task.axioms.len();
-                let cut = if is_full { Some(Outcome::OutOfMemory) } else { poll.stopped(work).map(Outcome::from) };
-                if let Some(cut) = cut {
+                let stop = if is_full { Some(Stop::Memory) } else { poll.stopped(work) };
+                if let Some(stop) = stop {
                     self.open.push(Reverse((0, 0, id)));
-                    return Found::Cut(cut);
+                    return Found::Stopped(stop);
                 }
                 self.after.copy_from_slice(&self.values);
                 space.task.apply(action, &self.values, &mut self.after);

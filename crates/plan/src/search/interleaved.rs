@@ -5,9 +5,9 @@
 //! in another way, and each time for longer. A turn goes on while it brings progress, and turns grow with what was done so
 //! far, so that few of them are enough.
 
-use typelift_model::Budget;
+use typelift_model::{Budget, Stop};
 
-use super::{Found, Outcome, Report, Search, Space};
+use super::{Found, Report, Search, Space};
 
 /// The expansions of the first turn.
 const FIRST_TURN: u64 = 600;
@@ -106,7 +106,7 @@ impl Search for Interleaved {
             let spent = self.report();
             let allowed = budget.expansions.map(|allowed| (begun + allowed).saturating_sub(spent.expansions));
             if allowed == Some(0) {
-                return Found::Cut(Outcome::GaveUp);
+                return Found::Stopped(Stop::Expansions);
             }
             let expansions = allowed.map_or(self.left, |allowed| allowed.min(self.left));
             let mut turn = Budget { expansions: Some(expansions), ..budget.clone() };
@@ -125,7 +125,7 @@ impl Search for Interleaved {
             };
             self.left = self.left.saturating_sub(own);
             match found {
-                Found::Cut(Outcome::GaveUp) => {
+                Found::Stopped(Stop::Expansions) => {
                     if self.left == 0 {
                         self.end_turn();
                     }

@@ -5,10 +5,10 @@
 //! alternates between them. Nothing is claimed of the first plan's cost; but where a search ends without a plan below a
 //! bound, there is none, as far as the heuristics' dead ends are dead ends.
 
-use typelift_model::Budget;
+use typelift_model::{Budget, Stop};
 
 use super::open_list::Alternation;
-use super::{Found, Outcome, Report, Search, Space};
+use super::{Found, Report, Search, Space};
 use crate::fdr::{ActionIndex, Registry, StateId};
 use crate::heuristic::{CostMeasure, Heuristic, Reached, Step};
 use crate::poll::Poll;
@@ -265,7 +265,7 @@ impl Search for Lazy {
             }
             if limit == Some(0) {
                 self.nodes.clear();
-                return Found::Cut(Outcome::GaveUp);
+                return Found::Stopped(Stop::Expansions);
             }
             self.expand(space, id, &mut keys, cost_bound);
         }
@@ -273,13 +273,13 @@ impl Search for Lazy {
         let work = 1 + space.task.action_count() / 8 + space.task.axioms.len();
         loop {
             if limit.is_some_and(|limit| self.expansions >= limit) {
-                return Found::Cut(Outcome::GaveUp);
+                return Found::Stopped(Stop::Expansions);
             }
             if budget.bytes.is_some_and(|limit| self.bytes() + space.bytes > limit) {
-                return Found::Cut(Outcome::OutOfMemory);
+                return Found::Stopped(Stop::Memory);
             }
             if let Some(stop) = poll.stopped(work) {
-                return Found::Cut(stop.into());
+                return Found::Stopped(stop);
             }
             let Some((parent, action)) = self.open.pop() else { return Found::Nothing };
             let from = self.nodes[parent.index()];

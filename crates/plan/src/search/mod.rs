@@ -11,39 +11,10 @@ pub(crate) use astar::AStar;
 pub(crate) use interleaved::{Attempts, EAGER, Interleaved};
 pub(crate) use lazy::{Lazy, Preference, Priority};
 
-use typelift_model::{Budget, Plan, Stop};
+use typelift_model::{Budget, Stop};
 
 use crate::fdr::{ActionIndex, Fdr, SuccessorGenerator};
 use crate::symmetry::Symmetry;
-
-/// How a search ended.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Outcome {
-    /// With a plan.
-    Solved(Plan),
-    /// All that the model allows was searched, and nothing cut off: there is no plan.
-    Unsolvable,
-    /// All that was kept was searched: there is no further plan among it.
-    NoMorePlans,
-    /// The expansions allowed are used up.
-    GaveUp,
-    /// The time allowed is used up.
-    OutOfTime,
-    /// The bytes allowed are used up.
-    OutOfMemory,
-    /// Somebody asked it to stop.
-    Cancelled,
-}
-
-impl From<Stop> for Outcome {
-    fn from(stop: Stop) -> Self {
-        match stop {
-            Stop::Time => Self::OutOfTime,
-            Stop::Memory => Self::OutOfMemory,
-            Stop::Cancelled => Self::Cancelled,
-        }
-    }
-}
 
 /// What grounding and search counted.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -91,7 +62,7 @@ pub(crate) enum Found {
     /// Everything that is not too dear was searched.
     Nothing,
     /// The budget ended it.
-    Cut(Outcome),
+    Stopped(Stop),
 }
 
 /// A search that can be continued.
