@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use typelift::agent::{Account, Options};
-use typelift::model::{ActionModel, ActionSchema, Budget, Task};
+use typelift::model::{ActionModel, ActionSchema, Budget, ParseConfig, Task};
 use typelift::world::{Parser, Reset, World};
 use typelift_kitchen::{Kitchen, KitchenTask};
 use typelift_lab::{Setting, attempt};
@@ -33,7 +33,7 @@ pub fn solve(model: &ActionModel, task: &KitchenTask, seed: u64, options: &Optio
 pub fn planning_task(model: &ActionModel, task: &KitchenTask, seed: u64) -> Task {
     let reset = Reset { seed, scenario: Some(task.scenario.clone()) };
     let scene = Kitchen::new().reset(&reset).expect("the simulator works");
-    let mut parser = Parser::new(model.hierarchy.clone(), model.parse.clone());
+    let mut parser = Parser::new(model.hierarchy.clone(), ParseConfig::default());
     Task::new(parser.parse(&scene).expect("a state"), task.goal.clone())
 }
 

@@ -82,6 +82,8 @@ fn action(number: usize, objects: usize) -> impl Strategy<Value = ActionSchema> 
                     distinct,
                     effects,
                     cost: cost.into(),
+                    strict: false,
+                    named_by_call: true,
                     provenance: Provenance::Given,
                 }
             })

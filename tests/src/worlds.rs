@@ -1,7 +1,7 @@
 //! Kitchens that are watched, and in which things happen that nobody planned.
 
 use typelift::agent::{Account, Confirmation, Episode, Event, Experience, Options, run};
-use typelift::model::{ActionModel, Budget, GroundCall, Plan, State};
+use typelift::model::{ActionModel, Budget, GroundCall, ParseConfig, Plan, State};
 use typelift::world::{Acted, Parser, Reset, Scene, World, WorldError};
 use typelift_kitchen::{Kitchen, KitchenTask};
 
@@ -96,7 +96,7 @@ pub fn run_in(
     experience: Experience,
     confirm: &mut dyn FnMut(&Plan) -> Confirmation,
 ) -> Ran {
-    let mut parser = Parser::new(model.hierarchy.clone(), model.parse.clone());
+    let mut parser = Parser::new(model.hierarchy.clone(), ParseConfig::default());
     let budget = Budget::with_expansions(20_000);
     let mut episode = Episode::new(model.clone(), task.goal.clone(), options.clone(), experience, budget);
     let reset = Reset { seed, scenario: Some(task.scenario.clone()) };

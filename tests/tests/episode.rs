@@ -33,7 +33,7 @@ fn saws() -> (Arc<ActionModel>, Parser) {
         let actions = vec![TraceAction { call, executed: None, reason: None, time: None }];
         shown.traces.push(Trace { states, actions, ..Trace::default() });
     }
-    let learned = learn(&hierarchy, evidence_of(&shown), &Default::default()).expect("a model");
+    let learned = learn(&hierarchy, &evidence_of(&shown), &Default::default()).expect("a model");
     (Arc::new(learned.model), parser)
 }
 

@@ -27,6 +27,8 @@ fn world() -> (ActionModel, Task) {
             Effect::when(vec![Literal::positive(lifted("lit(?0)"))], Literal::negative(lifted("lit(?1)"))),
         ],
         cost: 1.into(),
+        strict: false,
+        named_by_call: true,
         provenance: Provenance::Given,
     };
     let mut task = Task::new(State::default(), vec![GroundAtom::parse("done(x)").expect("an atom")]);
@@ -73,6 +75,8 @@ fn goals_that_exclude_each_other_are_not_searched_for() {
             .map(|&(atom, positive)| Effect::always(Literal { atom: lifted(atom), positive }))
             .collect(),
         cost: 1.into(),
+        strict: false,
+        named_by_call: true,
         provenance: Provenance::Given,
     };
     let cut = action("cut", &[("cut()", true), ("whole()", false)]);

@@ -124,6 +124,8 @@ fn road(miles: usize, full: usize) -> (ActionModel, Task) {
             .map(|(text, positive)| Effect::always(literal(text, positive)))
             .into(),
         cost: 1.into(),
+        strict: false,
+        named_by_call: true,
         provenance: Provenance::Given,
     };
     drive.preconditions.sort_unstable();

@@ -9,8 +9,8 @@ use proptest::test_runner::Config;
 use typelift::imagine::{self, imagine};
 use typelift::learn::{self, evidence_of, learn, observe};
 use typelift::model::{
-    ActionModel, Budget, ClusterKey, Evidence, GroundAtom, GroundCall, Hierarchy, LiftedAtom, PRE_STATE_BOUND,
-    ParseConfig, PreStates, State, Symbol, Term, TypeId, is_bijection,
+    ActionModel, Budget, ClusterKey, Evidence, GroundAtom, GroundCall, Hierarchy, LearnedModel, LiftedAtom,
+    PRE_STATE_BOUND, ParseConfig, PreStates, State, Symbol, Term, TypeId, is_bijection,
 };
 use typelift::plan::Restrictions;
 use typelift::world::{Dataset, Parser, Reset, Scene, Trace, TraceAction, Transition, World};
@@ -100,13 +100,19 @@ fn walks(seeds: &[u64], steps: usize) -> Dataset {
     Dataset { hierarchy: hierarchy(), predicates: parser.predicates(), traces, ..Dataset::default() }
 }
 
-fn learned(hierarchy: &Hierarchy, evidence: Evidence, individual: bool) -> ActionModel {
+fn learned(hierarchy: &Hierarchy, evidence: Evidence, individual: bool) -> LearnedModel {
     let options = learn::Options { individual, ..learn::Options::default() };
-    learn(hierarchy, evidence, &options).expect("a model").model
+    let model = learn(hierarchy, &evidence, &options).expect("a model").model;
+    LearnedModel { model, parse: ParseConfig::default(), evidence }
+}
+
+fn kitchen_learned(individual: bool) -> LearnedModel {
+    let dataset = dataset_of(&demonstrations(0));
+    learned(&dataset.hierarchy, evidence_of(&dataset), individual)
 }
 
 /// Everything that must hold between a model and what it was learned from.
-fn assert_supported(model: &ActionModel, individual: bool) {
+fn assert_supported(LearnedModel { model, evidence, .. }: &LearnedModel, individual: bool) {
     let h = &model.hierarchy;
     let mut explained: BTreeMap<&ClusterKey, usize> = BTreeMap::new();
     for action in &model.actions {
@@ -114,17 +120,18 @@ fn assert_supported(model: &ActionModel, individual: bool) {
         assert_eq!(preconditions.len(), action.preconditions.len(), "{}: nothing negative is learned", action.name);
         let mut always: Option<BTreeSet<LiftedAtom>> = None;
         let mut types: Vec<Option<TypeId>> = vec![None; action.parameters.len()];
-        assert!(!action.provenance.sources().is_empty(), "{} rests on nothing", action.name);
-        assert!(!individual || action.provenance.sources().len() == 1);
-        for source in action.provenance.sources() {
-            *explained.entry(&source.cluster).or_default() += 1;
-            assert!(is_bijection(&source.map) && source.map.len() == action.parameters.len(), "{}", action.name);
-            let (key, cluster) = (&source.cluster, &model.evidence.clusters[&source.cluster]);
-            let moved = |atom: &LiftedAtom| atom.renamed(&source.map);
+        assert!(!action.provenance.support().is_empty(), "{} rests on nothing", action.name);
+        assert!(!individual || action.provenance.support().len() == 1);
+        for support in action.provenance.support() {
+            *explained.entry(&*support.cluster).or_default() += 1;
+            assert!(is_bijection(&support.map) && support.map.len() == action.parameters.len(), "{}", action.name);
+            let (key, cluster) = (&support.cluster, &evidence.clusters[&*support.cluster]);
+            assert_eq!(support.observations, cluster.count);
+            let moved = |atom: &LiftedAtom| atom.renamed(&support.map);
             // The effect and the call are the cluster's.
             assert_eq!(action.adds().cloned().collect::<BTreeSet<_>>(), key.adds.iter().map(moved).collect());
             assert_eq!(action.deletes().cloned().collect::<BTreeSet<_>>(), key.deletes.iter().map(moved).collect());
-            let call: Vec<Term> = key.call.iter().map(|&p| Term::Param(source.map[p as usize])).collect();
+            let call: Vec<Term> = key.call.iter().map(|&p| Term::Param(support.map[p as usize])).collect();
             assert_eq!((&action.call.name, &action.call.args), (&key.action, &call));
             // The preconditions held each time.
             let PreStates::Exact(states) = &cluster.states else { continue };
@@ -135,7 +142,7 @@ fn assert_supported(model: &ActionModel, individual: bool) {
                 always = Some(always.map_or(state.clone(), |known| known.intersection(&state).cloned().collect()));
             }
             for (own, name) in key.types.iter().enumerate() {
-                let ty = &mut types[source.map[own] as usize];
+                let ty = &mut types[support.map[own] as usize];
                 let seen = h.id(name.as_str()).expect("a type");
                 *ty = Some(ty.map_or(seen, |known| h.lca(known, seen)));
             }
@@ -144,7 +151,7 @@ fn assert_supported(model: &ActionModel, individual: bool) {
         assert_eq!(always, Some(preconditions), "{}", action.name);
         assert_eq!(action.parameters.iter().map(|p| Some(p.ty)).collect::<Vec<_>>(), types, "{}", action.name);
     }
-    assert_eq!(explained.len(), model.evidence.clusters.len(), "every cluster is in an action");
+    assert_eq!(explained.len(), evidence.clusters.len(), "every cluster is in an action");
     assert!(explained.values().all(|&times| times == 1), "and in one only");
 }
 
@@ -177,10 +184,10 @@ proptest! {
         }
         let clusters = evidence.clusters.len();
         for individual in [true, false] {
-            let model = learned(&h, evidence.clone(), individual);
-            assert_supported(&model, individual);
+            let learned = learned(&h, evidence.clone(), individual);
+            assert_supported(&learned, individual);
             let expected = if individual { clusters } else { clusters.min(1) };
-            prop_assert_eq!(model.actions.len(), expected, "the same step is one action");
+            prop_assert_eq!(learned.model.actions.len(), expected, "the same step is one action");
         }
     }
 }
@@ -188,7 +195,7 @@ proptest! {
 #[test]
 fn preconditions_held_whenever_an_action_was_demonstrated() {
     for individual in [true, false] {
-        assert_supported(&kitchen_model(individual), individual);
+        assert_supported(&kitchen_learned(individual), individual);
     }
 }
 
@@ -290,7 +297,7 @@ proptest! {
         prop_assert_eq!(cluster.states.always(), BTreeSet::from([clean]));
         let [a, b] = [merged, whole].map(|evidence| learned(&h, evidence, false).to_json().expect("JSON"));
         prop_assert_eq!(&a, &b);
-        let read = ActionModel::from_json(&a).expect("a model");
+        let read = LearnedModel::from_json(&a).expect("a model");
         prop_assert_eq!(read.to_json().expect("JSON"), a);
     }
 }
@@ -299,7 +306,7 @@ proptest! {
 fn the_order_and_names_of_demonstrations_do_not_matter() {
     let original = dataset_of(&demonstrations(0));
     let expected = learned(&original.hierarchy, evidence_of(&original), false);
-    assert_eq!(expected.actions.len(), 13);
+    assert_eq!(expected.model.actions.len(), 13);
     let shapes = |model: &ActionModel| {
         let mut shapes: Vec<_> = model.actions.iter().map(shape).collect();
         shapes.sort_unstable();
@@ -314,13 +321,13 @@ fn the_order_and_names_of_demonstrations_do_not_matter() {
         for (trace, name) in dataset.traces.iter_mut().zip(names) {
             trace.file = Some(Symbol::from(format!("{name}.jsonl")));
         }
-        let model = learned(&dataset.hierarchy, evidence_of(&dataset), false);
-        assert_eq!(shapes(&model), shapes(&expected));
+        let learned = learned(&dataset.hierarchy, evidence_of(&dataset), false);
+        assert_eq!(shapes(&learned.model), shapes(&expected.model));
         // All but the places where it was seen.
-        for (cluster, other) in model.evidence.clusters.values().zip(expected.evidence.clusters.values()) {
+        for (cluster, other) in learned.evidence.clusters.values().zip(expected.evidence.clusters.values()) {
             assert_eq!((cluster.count, &cluster.states), (other.count, &other.states));
         }
-        assert_eq!(model.actions, expected.actions);
+        assert_eq!(learned.model.actions, expected.model.actions);
     }
 }
 
@@ -330,7 +337,8 @@ fn the_room_of_a_demonstration_does_not_matter() {
     let expected = kitchen_model(false);
     for seed in 1..30 {
         let dataset = dataset_of(&demonstrations(seed));
-        assert_eq!(learned(&dataset.hierarchy, evidence_of(&dataset), false).actions, expected.actions, "seed {seed}");
+        let learned = learned(&dataset.hierarchy, evidence_of(&dataset), false);
+        assert_eq!(learned.model.actions, expected.actions, "seed {seed}");
     }
 }
 
@@ -358,27 +366,29 @@ fn parsing_is_a_function_of_what_is_there() {
     }
 }
 
-fn assert_round_trip(model: &ActionModel) {
-    let text = model.to_json().expect("JSON");
-    let read = ActionModel::from_json(&text).expect("a model");
-    assert_eq!(read, *model);
+fn assert_round_trip(learned: &LearnedModel) {
+    let text = learned.to_json().expect("JSON");
+    let read = LearnedModel::from_json(&text).expect("a model");
+    assert_eq!(read, *learned);
     assert_eq!(read.to_json().expect("JSON"), text);
 }
 
 #[test]
 fn models_survive_being_written() {
     for individual in [true, false] {
-        let model = kitchen_model(individual);
-        assert_round_trip(&model);
-        assert_round_trip(&typelift::model::strict(&model));
+        let learned = kitchen_learned(individual);
+        assert_round_trip(&learned);
+        let LearnedModel { model, .. } = &learned;
+        let round_trip = |model: ActionModel| assert_round_trip(&LearnedModel { model, ..learned.clone() });
+        round_trip(typelift::model::strict(model));
         let mut with_imagined = 0;
         for task in tasks() {
-            let asked = planning_task(&model, &task, 0);
+            let asked = planning_task(model, &task, 0);
             let imagined =
-                imagine(&model, &asked, &Restrictions::default(), &imagine::Options::default(), &Budget::unlimited())
+                imagine(model, &asked, &Restrictions::default(), &imagine::Options::default(), &Budget::unlimited())
                     .expect("no limits");
             with_imagined += usize::from(!imagined.actions.is_empty());
-            assert_round_trip(&imagined.added_to(&model));
+            round_trip(imagined.added_to(model));
         }
         assert!(with_imagined > 0);
     }

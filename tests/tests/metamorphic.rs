@@ -5,13 +5,14 @@
 //! on symbolic states, behind the parser, which makes names of predicates from names of attributes and words.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use typelift::agent::{Options, propose};
 use typelift::imagine;
 use typelift::learn::{self, learn_dataset};
 use typelift::model::{
     ActionModel, ActionSchema, Atom, Budget, Cluster, ClusterKey, Evidence, GroundAtom, GroundCall, Hierarchy,
-    LiftedAtom, PreStates, Provenance, ROOT, Source, State, Step, Symbol, Task,
+    LearnedModel, LiftedAtom, PreStates, Provenance, ROOT, State, Step, Support, Symbol, Task,
 };
 use typelift::plan::{Outcome, Restrictions};
 use typelift::world::Dataset;
@@ -143,8 +144,8 @@ impl Renaming {
         Evidence { clusters: clusters.collect(), ..evidence.clone() }
     }
 
-    fn source(&self, source: &Source) -> Source {
-        Source { cluster: self.key(&source.cluster), map: source.map.clone() }
+    fn support(&self, support: &Support) -> Support {
+        Support { cluster: Arc::new(self.key(&support.cluster)), ..support.clone() }
     }
 
     fn action(&self, action: &ActionSchema) -> ActionSchema {
@@ -158,9 +159,9 @@ impl Renaming {
             effect.literal.atom = self.lifted(&effect.literal.atom);
         }
         renamed.provenance = match &action.provenance {
-            Provenance::Demonstrated(source) => Provenance::Demonstrated(self.source(source)),
-            Provenance::Generalized(sources) => {
-                Provenance::Generalized(sources.iter().map(|source| self.source(source)).collect())
+            Provenance::Demonstrated(support) => Provenance::Demonstrated(self.support(support)),
+            Provenance::Generalized(support) => {
+                Provenance::Generalized(support.iter().map(|support| self.support(support)).collect())
             }
             other => panic!("{other:?} is not learned"),
         };
@@ -172,8 +173,15 @@ impl Renaming {
             hierarchy: self.hierarchy(&model.hierarchy),
             predicates: model.predicates.iter().map(|(name, n)| (self.predicates[name].clone(), *n)).collect(),
             actions: model.actions.iter().map(|action| self.action(action)).collect(),
-            evidence: self.evidence(&model.evidence),
             ..model.clone()
+        }
+    }
+
+    fn learned(&self, learned: &LearnedModel) -> LearnedModel {
+        LearnedModel {
+            model: self.model(&learned.model),
+            evidence: self.evidence(&learned.evidence),
+            ..learned.clone()
         }
     }
 
@@ -189,8 +197,8 @@ impl Renaming {
     }
 }
 
-fn learned(dataset: &Dataset, individual: bool) -> ActionModel {
-    learn_dataset(dataset, &learn::Options { individual, ..learn::Options::default() }).expect("a model").model
+fn learned(dataset: &Dataset, individual: bool) -> LearnedModel {
+    learn_dataset(dataset, &learn::Options { individual, ..learn::Options::default() }).expect("a model").0
 }
 
 fn shown_and_asked() -> (Dataset, Vec<(String, Task)>) {
@@ -222,13 +230,13 @@ fn other_names_give_the_same_model_under_other_names() {
         let original = learned(&dataset, individual);
         let renamed = learned(&renaming.dataset(&dataset), individual);
         // Piece by piece first: what differs is easier to see.
-        for (a, b) in original.actions.iter().zip(&renamed.actions) {
+        for (a, b) in original.model.actions.iter().zip(&renamed.model.actions) {
             assert_eq!(renaming.action(a), *b);
         }
-        assert_eq!(renaming.model(&original), renamed);
-        assert_eq!(renamed.actions.len(), if individual { 39 } else { 13 });
-        assert_neutral(&renamed.actions.iter().map(|a| format!("{a:?}")).collect::<String>(), &renaming);
-        assert_neutral(&format!("{:?}", renamed.hierarchy), &renaming);
+        assert_eq!(renaming.learned(&original), renamed);
+        assert_eq!(renamed.model.actions.len(), if individual { 39 } else { 13 });
+        assert_neutral(&renamed.model.actions.iter().map(|a| format!("{a:?}")).collect::<String>(), &renaming);
+        assert_neutral(&format!("{:?}", renamed.model.hierarchy), &renaming);
     }
 }
 
@@ -238,7 +246,7 @@ fn other_names_give_the_same_plans_under_other_names() {
     let renaming = renaming(&dataset, &asked, true);
     let renamed = renaming.dataset(&dataset);
     for (individual, imagines) in [(false, true), (false, false), (true, false)] {
-        let models = [&dataset, &renamed].map(|dataset| learned(dataset, individual));
+        let models = [&dataset, &renamed].map(|dataset| learned(dataset, individual).model);
         let options = Options { imagine: imagines.then(imagine::Options::default), ..Options::default() };
         for (name, task) in &asked {
             let context = format!("{name}, individual {individual}, imagines {imagines}");
@@ -273,8 +281,8 @@ fn names_in_another_order_give_the_same_actions() {
     let (dataset, asked) = shown_and_asked();
     let renaming = renaming(&dataset, &asked, false);
     for individual in [true, false] {
-        let original = learned(&dataset, individual);
-        let renamed = learned(&renaming.dataset(&dataset), individual);
+        let original = learned(&dataset, individual).model;
+        let renamed = learned(&renaming.dataset(&dataset), individual).model;
         let shapes = |actions: &[ActionSchema]| -> BTreeSet<_> { actions.iter().map(shape).collect() };
         let expected: Vec<ActionSchema> = original.actions.iter().map(|action| renaming.action(action)).collect();
         assert_eq!(shapes(&expected), shapes(&renamed.actions));
@@ -286,7 +294,7 @@ fn names_in_another_order_give_the_same_actions() {
 fn names_in_another_order_leave_every_task_solved() {
     let (dataset, asked) = shown_and_asked();
     let renaming = renaming(&dataset, &asked, false);
-    let models = [learned(&dataset, false), learned(&renaming.dataset(&dataset), false)];
+    let models = [learned(&dataset, false).model, learned(&renaming.dataset(&dataset), false).model];
     let options = Options { imagine: Some(imagine::Options::default()), ..Options::default() };
     for (name, task) in &asked {
         let both = [(&models[0], task.clone()), (&models[1], renaming.task(task))];

@@ -453,6 +453,8 @@ fn a_further_plan_may_differ_in_any_action() {
         distinct: Vec::new(),
         effects: vec![Effect::always(Literal::positive(Atom::new(add, Vec::new())))],
         cost: 1.into(),
+        strict: false,
+        named_by_call: true,
         provenance: Provenance::Given,
     };
     for detour in ["a", "z"] {

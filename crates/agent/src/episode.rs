@@ -7,9 +7,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use typelift_model::{
-    ActionModel, Budget, Goal, GroundAction, GroundAtom, Plan, Provenance, State, Stop, Symbol, Task,
-};
+use typelift_model::{ActionModel, Budget, Goal, GroundAction, GroundAtom, Plan, State, Stop, Symbol, Task};
 use typelift_plan::{Ban, Exclusion, Outcome};
 
 use crate::account::{Account, Ending, Failure};
@@ -344,9 +342,9 @@ impl Episode {
         self.account.actions += 1;
         self.taken = self.next_step + 1;
         let step = &self.plan.steps[self.next_step];
-        let given = self.planned_with.action(step.action.as_str()).is_some_and(|a| a.provenance == Provenance::Given);
+        let strict = self.planned_with.action(step.action.as_str()).is_some_and(|action| action.strict);
         // A relaxed plan knows that not every effect will be a change.
-        let strict_effects = !given && !self.relaxed;
+        let strict_effects = strict && !self.relaxed;
         let seen = self.expected().map_or(StepResult::Otherwise, |e| compare(&e, &self.state, &after, strict_effects));
         let result = match excuse {
             Some(excuse) if seen == StepResult::NothingChanged || excuse == StepResult::TimedOut => match seen {

@@ -191,6 +191,8 @@ mod tests {
                 Effect::when(vec![Literal::positive(lifted("lit(?0)"))], Literal::negative(lifted("lit(?0)"))),
             ],
             cost: Cost::UNIT,
+            strict: false,
+            named_by_call: true,
             provenance: Provenance::Given,
         };
         ActionModel { hierarchy, actions: vec![go], ..ActionModel::default() }

@@ -6,12 +6,12 @@ use std::time::Instant;
 
 use typelift::agent::{Account, Confirmation, Episode, Event, Experience, Observer, Options, run};
 use typelift::imagine;
-use typelift::learn::{self, Learned, learn_dataset};
-use typelift::model::{ActionModel, Budget, ParseConfig, Plan, Symbol};
+use typelift::learn::{self, Report, learn_dataset};
+use typelift::model::{ActionModel, Budget, LearnedModel, ParseConfig, Plan, Symbol};
 use typelift::world::{Dataset, Parser, Reset, Trace, TraceAction, World};
 use typelift_kitchen::{Demonstration, Kitchen, KitchenTask, demonstrations, draw, faults, hierarchy, tasks};
 
-use crate::describe::{describe, source_name};
+use crate::describe::{describe, individual_name};
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::limits::{Clock, parse_whole};
@@ -47,9 +47,9 @@ impl Demo {
         writeln!(out, "  {}.", wrapped(titles.split(' '), 2, 78))?;
 
         let started = Instant::now();
-        let learned = learn_all(&demonstrations)?;
+        let (learned, report) = learn_all(&demonstrations)?;
         let took = started.elapsed().as_millis();
-        print_learned(&mut out, &learned, took)?;
+        print_learned(&mut out, &learned, &report, took)?;
 
         let model = Arc::new(learned.model);
         writeln!(out, "\n{HEAD}Asked{HEAD:#}: one task of each of the six sets, in rooms with 32 objects")?;
@@ -125,7 +125,7 @@ impl Demo {
         let budget = Budget::with_expansions(200_000);
         let mut episode = Episode::new(Arc::clone(model), task.goal.clone(), options, Experience::new(), budget);
         let mut kitchen = Kitchen::new();
-        let mut parser = Parser::new(model.hierarchy.clone(), model.parse.clone());
+        let mut parser = Parser::new(model.hierarchy.clone(), ParseConfig::default());
         let reset = Reset { seed: self.seed, scenario: Some(task.scenario.clone()) };
         let mut approve = |_: &Plan| Confirmation::Approve;
         let world: &mut dyn World = &mut kitchen;
@@ -160,7 +160,7 @@ fn imagined_notes(plan: &Plan, model: &ActionModel) -> Vec<String> {
     notes
 }
 
-fn learn_all(demonstrations: &[Demonstration]) -> Result<Learned, Failure> {
+fn learn_all(demonstrations: &[Demonstration]) -> Result<(LearnedModel, Report), Failure> {
     let mut parser = Parser::new(hierarchy(), ParseConfig::default());
     let mut traces = Vec::with_capacity(demonstrations.len());
     for demonstration in demonstrations {
@@ -187,8 +187,8 @@ fn learn_all(demonstrations: &[Demonstration]) -> Result<Learned, Failure> {
     learn_dataset(&dataset, &learn::Options::default()).map_err(Failure::bad_input)
 }
 
-fn print_learned(out: &mut impl Write, learned: &Learned, took: u128) -> Result<(), Failure> {
-    let (report, model) = (&learned.report, &learned.model);
+fn print_learned(out: &mut impl Write, learned: &LearnedModel, report: &Report, took: u128) -> Result<(), Failure> {
+    let model = &learned.model;
     writeln!(
         out,
         "\n{HEAD}Learned{HEAD:#} in {took} ms: {}, {}, {}",
@@ -198,21 +198,21 @@ fn print_learned(out: &mut impl Write, learned: &Learned, took: u128) -> Result<
     )?;
     for action in &model.actions {
         let name = format!("{:<25}", action.name);
-        let observations = count(model.observations(action), "observation");
-        let sources = action.provenance.sources();
-        if sources.len() < 2 {
+        let observations = count(action.provenance.observations(), "observation");
+        let support = action.provenance.support();
+        if support.len() < 2 {
             writeln!(out, "  {name} {DIM}as shown, {observations}{DIM:#}")?;
             continue;
         }
         let prefix = format!("{}-", action.call.name);
-        let from = sources.iter().map(|source| source_name(source, model));
+        let from = support.iter().map(|support| individual_name(support, model));
         let from: Vec<String> = from.map(|name| name.strip_prefix(&prefix).unwrap_or(&name).to_owned()).collect();
         let words = from.iter().map(String::as_str);
         writeln!(out, "  {name} {DIM}{}{DIM:#}", wrapped(words, 28, 78))?;
     }
     if let Some(action) = model.action("USE-cutboard-food") {
         writeln!(out, "\n{HEAD}One of them{HEAD:#}, in full:")?;
-        write!(out, "{}", describe(action, model, false))?;
+        write!(out, "{}", describe(action, model, None))?;
     }
     Ok(())
 }

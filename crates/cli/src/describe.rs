@@ -3,16 +3,17 @@
 use std::collections::BTreeMap;
 
 use typelift::model::{
-    ActionModel, ActionSchema, Axiom, Cost, Effect, Hierarchy, LiftedAtom, Literal, Parameter, Provenance, Source,
-    Symbol, Term, describe_replacements, schema_name,
+    ActionModel, ActionSchema, Axiom, Cost, Effect, Evidence, Hierarchy, LiftedAtom, Literal, Parameter, Provenance,
+    Support, Symbol, Term, describe_replacements, schema_name,
 };
 
 use crate::style::{DIM, HEAD, count, wrapped};
 
-/// An action in words: parameters, what the environment is told, preconditions, effects, evidence.
-pub(crate) fn describe(action: &ActionSchema, model: &ActionModel, in_full: bool) -> String {
+/// An action in words: parameters, what the environment is told, preconditions, effects, what it rests on; with the
+/// evidence, also where that was seen.
+pub(crate) fn describe(action: &ActionSchema, model: &ActionModel, evidence: Option<&Evidence>) -> String {
     let h = &model.hierarchy;
-    let mut text = format!("{HEAD}{}{HEAD:#}  {}\n", action.name, headline(action, model));
+    let mut text = format!("{HEAD}{}{HEAD:#}  {}\n", action.name, headline(action, &model.hierarchy));
     let parameters: Vec<String> = action.parameters.iter().map(|p| format!("?{} - {}", p.name, h.name(p.ty))).collect();
     row(&mut text, "parameters", &parameters);
     let written = Written { parameters: action.parameters.iter().collect() };
@@ -39,19 +40,18 @@ pub(crate) fn describe(action: &ActionSchema, model: &ActionModel, in_full: bool
         let functions = action.cost.functions.iter().map(|f| written.atom(f));
         row(&mut text, "costs", &[fixed.into_iter().chain(functions).collect::<Vec<_>>().join(" + ")]);
     }
-    let sources = action.provenance.sources();
-    let rests: Vec<String> =
-        sources.iter().map(|s| format!("{} {}", source_name(s, model), support(s, model))).collect();
-    if sources.len() > 1 {
-        row(&mut text, "merged", &rests);
+    let support = action.provenance.support();
+    if support.len() > 1 {
+        let merged = support.iter().map(|s| format!("{} {}", individual_name(s, model), s.observations));
+        row(&mut text, "merged", &merged.collect::<Vec<_>>());
         row(&mut text, "because", &because(action, model));
     }
-    if in_full {
-        for source in sources {
-            let witnesses = model.evidence.clusters.get(&source.cluster).map(|c| &c.witnesses);
+    if let Some(evidence) = evidence {
+        for support in support {
+            let witnesses = evidence.clusters.get(&*support.cluster).map(|c| &c.witnesses);
             let places = witnesses.into_iter().flatten().map(|w| format!("{} step {}", w.file, w.step));
             let places: Vec<String> = places.collect();
-            row(&mut text, "seen", &[format!("{}: {}", source_name(source, model), places.join(", "))]);
+            row(&mut text, "seen", &[format!("{}: {}", individual_name(support, model), places.join(", "))]);
         }
     }
     text
@@ -118,34 +118,28 @@ fn row(text: &mut String, label: &str, words: &[String]) {
 }
 
 /// Where an action comes from, in one line.
-pub(crate) fn headline(action: &ActionSchema, model: &ActionModel) -> String {
-    let observations = count(model.observations(action), "observation");
+pub(crate) fn headline(action: &ActionSchema, hierarchy: &Hierarchy) -> String {
+    let observations = count(action.provenance.observations(), "observation");
     match &action.provenance {
         Provenance::Given => "given".to_owned(),
         Provenance::Demonstrated(_) => observations,
-        Provenance::Generalized(sources) => {
-            format!("{observations} of {}", count(sources.len() as u64, "individual action"))
+        Provenance::Generalized(support) => {
+            format!("{observations} of {}", count(support.len() as u64, "individual action"))
         }
-        Provenance::Imagined { from, replaced, goal, .. } => format!(
-            "imagined for {goal}: {}, from {from}, {observations}",
-            describe_replacements(replaced, &model.hierarchy)
-        ),
-        Provenance::Substituted { from, replaced, following, .. } => format!(
-            "follows {following}: {}, from {from}, {observations}",
-            describe_replacements(replaced, &model.hierarchy)
-        ),
+        Provenance::Imagined { from, replaced, goal, .. } => {
+            format!("imagined for {goal}: {}, from {from}, {observations}", describe_replacements(replaced, hierarchy))
+        }
+        Provenance::Substituted { from, replaced, following, .. } => {
+            format!("follows {following}: {}, from {from}, {observations}", describe_replacements(replaced, hierarchy))
+        }
     }
 }
 
 /// The name that an individual action over this cluster has.
-pub(crate) fn source_name(source: &Source, model: &ActionModel) -> String {
-    let key = &source.cluster;
+pub(crate) fn individual_name(support: &Support, model: &ActionModel) -> String {
+    let key = &support.cluster;
     let is_actor = |name: &Symbol| model.hierarchy.id(name.as_str()).is_some_and(|ty| model.is_actor(ty));
     schema_name(&key.action, key.types.iter().map(|name| (name, is_actor(name))))
-}
-
-fn support(source: &Source, model: &ActionModel) -> u64 {
-    model.evidence.clusters.get(&source.cluster).map_or(0, |cluster| cluster.count)
 }
 
 /// Why individual actions were merged: the same effect, and where their types meet.
@@ -153,9 +147,9 @@ fn because(action: &ActionSchema, model: &ActionModel) -> Vec<String> {
     let mut reasons = vec!["all have this effect;".to_owned()];
     for (i, parameter) in action.parameters.iter().enumerate() {
         let mut met: BTreeMap<&Symbol, ()> = BTreeMap::new();
-        for source in action.provenance.sources() {
-            if let Some(own) = source.map.iter().position(|&p| p as usize == i) {
-                met.insert(&source.cluster.types[own], ());
+        for support in action.provenance.support() {
+            if let Some(own) = support.map.iter().position(|&p| p as usize == i) {
+                met.insert(&support.cluster.types[own], ());
             }
         }
         if met.len() > 1 {

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use typelift::model::{ActionModel, ModelFileError, Symbol, Task};
+use typelift::model::{ActionModel, LearnedModel, ModelFileError, ParseConfig, Symbol, Task};
 use typelift::world::{DomainFile, FileError, Parser, TaskFile, is_pddl, read_task, read_text, read_types};
 
 use crate::failure::{Failure, NOT_AS_WRITTEN};
@@ -17,7 +17,7 @@ const MOST_WARNINGS: usize = 5;
 /// A model as it is read: learned, or stated in PDDL.
 #[derive(Debug)]
 pub(crate) enum ModelInput {
-    Learned(Box<ActionModel>),
+    Learned(Box<LearnedModel>),
     Given(Box<DomainFile>),
 }
 
@@ -34,7 +34,7 @@ pub(crate) fn read_model_input(path: &Path, types: Option<&PathBuf>) -> Result<M
     if text.trim().is_empty() {
         return Err(FileError::new(path, "the file is empty").into());
     }
-    let mut model = ActionModel::from_json(&text).map_err(|error| match error {
+    let mut learned = LearnedModel::from_json(&text).map_err(|error| match error {
         ModelFileError::Json { line, column, message } => {
             let error = FileError::at_line(path, line, message).with_column(column);
             error.with_hint(NOT_AS_WRITTEN.to_owned()).into()
@@ -42,17 +42,9 @@ pub(crate) fn read_model_input(path: &Path, types: Option<&PathBuf>) -> Result<M
         error => Failure::from(error).in_file(path),
     })?;
     if let Some(types) = types {
-        model.hierarchy = read_types(types)?.extend(&model.hierarchy)?;
+        learned.model.hierarchy = read_types(types)?.extend(&learned.model.hierarchy)?;
     }
-    Ok(ModelInput::Learned(Box::new(model)))
-}
-
-/// Reads a model file or a PDDL domain where only the model counts.
-pub(crate) fn read_model(path: &Path, types: Option<&PathBuf>) -> Result<ActionModel, Failure> {
-    Ok(match read_model_input(path, types)? {
-        ModelInput::Learned(model) => *model,
-        ModelInput::Given(domain) => domain.model,
-    })
+    Ok(ModelInput::Learned(Box::new(learned)))
 }
 
 /// What is to be done, as it is read: a task file, or a PDDL problem compiled with the model it needs.
@@ -65,8 +57,16 @@ impl ModelInput {
     /// The model alone.
     pub(crate) fn model(&self) -> &ActionModel {
         match self {
-            Self::Learned(model) => model,
+            Self::Learned(learned) => &learned.model,
             Self::Given(domain) => &domain.model,
+        }
+    }
+
+    /// How snapshots are read.
+    pub(crate) fn parse(&self) -> ParseConfig {
+        match self {
+            Self::Learned(learned) => learned.parse.clone(),
+            Self::Given(_) => ParseConfig::default(),
         }
     }
 
@@ -100,11 +100,11 @@ impl ModelInput {
         match self.read_task(path, quiet)? {
             TaskInput::Problem(problem) => Ok(*problem),
             TaskInput::File(file) => {
-                let model = match self {
-                    Self::Learned(model) => *model,
-                    Self::Given(domain) => domain.model,
+                let (model, parse) = match self {
+                    Self::Learned(learned) => (learned.model, learned.parse),
+                    Self::Given(domain) => (domain.model, ParseConfig::default()),
                 };
-                let mut parser = Parser::new(model.hierarchy.clone(), model.parse.clone());
+                let mut parser = Parser::new(model.hierarchy.clone(), parse);
                 let task = file.task(&mut parser, &model.predicates).map_err(|error| error.in_file(path, &parser))?;
                 Ok((model, task))
             }

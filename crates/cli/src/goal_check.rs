@@ -1,12 +1,13 @@
 //! Holds a task's goal against the first state that an environment shows.
 
-use typelift::model::{ActionModel, GroundAtom, GroundCall};
+use typelift::model::{ActionModel, GroundAtom, GroundCall, ParseConfig};
 use typelift::world::{Acted, Parser, Reset, Scene, TaskError, World, WorldError, check_goal};
 
 /// A world whose first state is held against the task's goal.
 pub(crate) struct GoalCheck<'a> {
     pub(crate) world: &'a mut dyn World,
     pub(crate) model: &'a ActionModel,
+    pub(crate) parse: &'a ParseConfig,
     pub(crate) goal: Vec<GroundAtom>,
     /// What is wrong with the goal, if the world was stopped for it.
     pub(crate) error: Option<TaskError>,
@@ -14,7 +15,7 @@ pub(crate) struct GoalCheck<'a> {
 
 impl GoalCheck<'_> {
     fn checked(&mut self, scene: Scene) -> Result<Scene, WorldError> {
-        let mut parser = Parser::new(self.model.hierarchy.clone(), self.model.parse.clone());
+        let mut parser = Parser::new(self.model.hierarchy.clone(), self.parse.clone());
         // A scene that cannot be parsed is reported by whoever parses it next.
         if let Ok(state) = parser.parse(&scene)
             && let Err(error) = check_goal(&self.goal, &state, &self.model.predicates)

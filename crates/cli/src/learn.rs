@@ -5,8 +5,8 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use serde::Serialize;
-use typelift::learn::{Actor, LearnError, Learned, Options, learn_dataset};
-use typelift::model::{ActionModel, ClusterKey, LiftedAtom, ParseConfig, Symbol, Unexplained};
+use typelift::learn::{self, Actor, LearnError, Options, learn_dataset};
+use typelift::model::{ClusterKey, Evidence, LearnedModel, LiftedAtom, ParseConfig, Symbol, Unexplained};
 use typelift::world::{Dataset, ObjectTypes, read_dataset, read_hierarchy, write_file};
 
 use crate::exit::Exit;
@@ -86,7 +86,8 @@ impl Learn {
             Some("none") => Some(Actor::Nobody),
             Some(name) => Some(Actor::Type(Symbol::new(name))),
         };
-        let learned = learn_dataset(&dataset, &Options { individual: self.individual, actor }).map_err(|error| {
+        let options = Options { individual: self.individual, actor };
+        let (model, report) = learn_dataset(&dataset, &options).map_err(|error| {
             let LearnError::UnknownType(name) = &error;
             let types: Vec<Symbol> = dataset.hierarchy.types().map(|t| dataset.hierarchy.name(t).clone()).collect();
             let hint = format!("{} Or say `none`.", or_one_of(name.as_str(), &types));
@@ -95,28 +96,38 @@ impl Learn {
         // First, so that the model is there also if nobody reads what is printed.
         let output = self.output.as_ref().filter(|_| !self.dry_run);
         if let Some(path) = output {
-            write_file(path, learned.model.to_json()?.as_bytes())?;
+            write_file(path, model.to_json()?.as_bytes())?;
         }
         let mut out = anstream::stdout().lock();
         if self.json {
-            writeln!(out, "{}", serde_json::to_string_pretty(&report(&dataset, &learned)).unwrap_or_default())?;
+            writeln!(
+                out,
+                "{}",
+                serde_json::to_string_pretty(&json_report(&dataset, &model, &report)).unwrap_or_default()
+            )?;
         } else if self.dry_run {
-            self.describe(&mut out, &dataset, &learned)?;
+            self.describe(&mut out, &dataset, &model, &report)?;
         } else {
-            print_counts(&mut out, &dataset, &learned)?;
+            print_counts(&mut out, &dataset, &model, &report)?;
         }
         out.flush()?;
         if !quiet {
             if let Some(path) = output {
                 anstream::eprintln!("wrote {}", path.display());
             }
-            self.warn(&dataset, &learned);
+            self.warn(&dataset, &model, &report);
         }
         Ok(Exit::Success)
     }
 
     /// `--dry-run`: what would be learned from.
-    fn describe(&self, out: &mut impl Write, dataset: &Dataset, learned: &Learned) -> Result<(), Failure> {
+    fn describe(
+        &self,
+        out: &mut impl Write,
+        dataset: &Dataset,
+        model: &LearnedModel,
+        report: &learn::Report,
+    ) -> Result<(), Failure> {
         let mut types: BTreeMap<&Symbol, usize> = BTreeMap::new();
         for trace in &dataset.traces {
             for ty in trace.states.first().into_iter().flat_map(|state| state.objects.values()) {
@@ -145,7 +156,7 @@ impl Learn {
                 changes.entry(predicate).or_default().1 += 1;
             }
         }
-        let transitions = learned.report.transitions;
+        let transitions = report.transitions;
         writeln!(
             out,
             "{HEAD}predicates{HEAD:#} (of {transitions} transitions: in how many one changed, one held before)"
@@ -159,16 +170,16 @@ impl Learn {
         let ignored = if ignored.is_empty() { "nothing".to_owned() } else { ignored.join(", ") };
         writeln!(out, "{HEAD}ignored{HEAD:#} {ignored}")?;
         writeln!(out, "{HEAD}support{HEAD:#} (transitions of each individual action)")?;
-        for (key, cluster) in &learned.model.evidence.clusters {
+        for (key, cluster) in &model.evidence.clusters {
             let types: Vec<&str> = key.types.iter().map(Symbol::as_str).collect();
             writeln!(out, "  {:<66} {:>6}", format!("{}({})", key.action, types.join(", ")), cluster.count)?;
         }
-        print_counts(out, dataset, learned)
+        print_counts(out, dataset, model, report)
     }
 
     /// Warns of what is probably not meant in the files, of names to ignore that were never met, and of attributes that
     /// seem to flicker: most actions rest on a single observation, and there would be fewer without some predicate.
-    fn warn(&self, dataset: &Dataset, learned: &Learned) {
+    fn warn(&self, dataset: &Dataset, model: &LearnedModel, report: &learn::Report) {
         warn(dataset.traces.iter().flat_map(|trace| &trace.warnings));
         for rule in &dataset.unmatched_ignores {
             anstream::eprintln!("{WARNING}warning{WARNING:#}: --ignore {rule}: there is no such attribute or relation");
@@ -176,15 +187,15 @@ impl Learn {
                 anstream::eprintln!("{HINT}hint{HINT:#}: {rule} is a predicate; it comes from {source}");
             }
         }
-        if learned.report.individual == 0 {
-            let why = match learned.report.transitions {
+        if report.individual == 0 {
+            let why = match report.transitions {
                 0 => "there is no action in these traces",
                 _ => "no action in these traces changed anything that can be learned",
             };
             anstream::eprintln!("{WARNING}warning{WARNING:#}: nothing was learned: {why}");
         }
-        let (single, actions) = (learned.report.single_support, learned.report.generalized);
-        let Some((predicate, fewer, all)) = flickering(&learned.model) else { return };
+        let (single, actions) = (report.single_support, report.generalized);
+        let Some((predicate, fewer, all)) = flickering(&model.evidence) else { return };
         if self.individual || single * 2 <= actions {
             return;
         }
@@ -200,8 +211,8 @@ impl Learn {
 
 /// The predicate without which there would be the fewest kinds of effect, and how many those would be, and are; none if
 /// there would not be fewer. A kind is what could be generalized into one action, whatever the types.
-fn flickering(model: &ActionModel) -> Option<(Symbol, usize, usize)> {
-    let clusters: Vec<&ClusterKey> = model.evidence.clusters.keys().collect();
+fn flickering(evidence: &Evidence) -> Option<(Symbol, usize, usize)> {
+    let clusters: Vec<&ClusterKey> = evidence.clusters.keys().collect();
     let kinds = |left_out: Option<&Symbol>| {
         let kind = |key: &&ClusterKey| {
             let names = |atoms: &[LiftedAtom]| {
@@ -219,34 +230,38 @@ fn flickering(model: &ActionModel) -> Option<(Symbol, usize, usize)> {
     (fewest < all).then(|| (predicate.clone(), fewest, all))
 }
 
-fn report(dataset: &Dataset, learned: &Learned) -> Report {
+fn json_report(dataset: &Dataset, model: &LearnedModel, report: &learn::Report) -> Report {
     Report {
         traces: dataset.traces.len(),
-        transitions: learned.report.transitions,
-        individual_actions: learned.report.individual,
-        generalized_actions: learned.report.generalized,
-        unchanged: learned.report.unchanged,
-        unexplained: learned.report.unexplained,
-        single_support: learned.report.single_support,
+        transitions: report.transitions,
+        individual_actions: report.individual,
+        generalized_actions: report.generalized,
+        unchanged: report.unchanged,
+        unexplained: report.unexplained,
+        single_support: report.single_support,
         predicates: dataset.predicates.clone(),
-        actions: learned.model.actions.iter().map(|action| action.name.clone()).collect(),
+        actions: model.model.actions.iter().map(|action| action.name.clone()).collect(),
     }
 }
 
-fn print_counts(out: &mut impl Write, dataset: &Dataset, learned: &Learned) -> Result<(), Failure> {
-    let report = &learned.report;
+fn print_counts(
+    out: &mut impl Write,
+    dataset: &Dataset,
+    model: &LearnedModel,
+    report: &learn::Report,
+) -> Result<(), Failure> {
     let traces = count(dataset.traces.len() as u64, "demonstration");
     writeln!(out, "{}, from {traces}", count(report.transitions, "transition"))?;
     writeln!(out, "{}", count(report.individual as u64, "individual action"))?;
     let generalized = count(report.generalized as u64, "generalized action");
     if report.generalized != report.individual {
-        let names = learned.model.actions.iter().map(|action| action.name.as_str());
+        let names = model.model.actions.iter().map(|action| action.name.as_str());
         writeln!(out, "{generalized}:\n  {}", wrapped(names, 2, 80))?;
     }
     if report.unchanged > 0 {
         writeln!(out, "{} changed nothing, kept as negatives", count(report.unchanged, "transition"))?;
     }
-    for (reason, (times, witnesses)) in &learned.model.evidence.unexplained {
+    for (reason, (times, witnesses)) in &model.evidence.unexplained {
         let reason = match reason {
             Unexplained::ObjectsChanged => "entities appeared or vanished",
             Unexplained::PartlyObserved => "something about their entities is unknown",

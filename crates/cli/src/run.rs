@@ -132,7 +132,7 @@ impl Run {
         let interrupt = Interrupt::install()?;
         keep_inputs(self.events.as_deref(), self.tasks.iter().chain([&self.model]).chain(&self.types))?;
         let input = read_model_input(&self.model, self.types.as_ref())?;
-        let learned = Arc::new(input.model().clone());
+        let (learned, parse) = (Arc::new(input.model().clone()), input.parse());
         let mut tasks = Vec::with_capacity(self.tasks.len());
         for path in &self.tasks {
             tasks.push(match input.read_task(path, quiet)? {
@@ -167,9 +167,9 @@ impl Run {
             let mut episode =
                 Episode::new(Arc::clone(&model), task.goal.clone(), options.clone(), experience.clone(), budget)
                     .with_values(task.values);
-            let mut parser = Parser::new(model.hierarchy.clone(), model.parse.clone());
+            let mut parser = Parser::new(model.hierarchy.clone(), parse.clone());
             let goal = task.goal.literals().map(|(atom, _)| atom.clone()).collect();
-            let mut checked = GoalCheck { world: &mut *world, model: &model, goal, error: None };
+            let mut checked = GoalCheck { world: &mut *world, model: &model, parse: &parse, goal, error: None };
             let mut confirm = |plan: &Plan| self.confirm(plan, &model, &interrupt);
             let ran = run(&mut episode, &mut checked, &reset, &mut parser, &mut confirm, &mut narrator);
             if let Some(error) = checked.error {

@@ -3,13 +3,13 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use typelift::model::Symbol;
+use typelift::model::{LearnedModel, Symbol};
 use typelift::pddl::{ExportOptions, Level, export};
 
 use crate::describe::{describe, describe_axiom};
 use crate::exit::Exit;
 use crate::failure::{Failure, or_one_of};
-use crate::files::{domain_name, read_model};
+use crate::files::{ModelInput, domain_name, read_model_input};
 use crate::style::count;
 
 /// Show what a model holds, and what each action rests on
@@ -31,7 +31,10 @@ pub(crate) struct Show {
 
 impl Show {
     pub(crate) fn run(&self) -> Result<Exit, Failure> {
-        let model = read_model(&self.model, None)?;
+        let LearnedModel { model, evidence, .. } = match read_model_input(&self.model, None)? {
+            ModelInput::Learned(learned) => *learned,
+            ModelInput::Given(domain) => domain.model.into(),
+        };
         let mut out = anstream::stdout().lock();
         if self.pddl {
             let domain = domain_name(&self.model);
@@ -49,10 +52,10 @@ impl Show {
                     count(model.actions.len() as u64, "action"),
                     count(h.len() as u64 - 1, "type"),
                     count(model.predicates.len() as u64, "predicate"),
-                    count(model.evidence.transitions, "transition"),
+                    count(evidence.transitions, "transition"),
                 )?;
                 for action in &model.actions {
-                    writeln!(out, "{}", describe(action, &model, false))?;
+                    writeln!(out, "{}", describe(action, &model, None))?;
                 }
                 for axiom in &model.axioms {
                     writeln!(out, "{}", describe_axiom(axiom, &model))?;
@@ -63,7 +66,7 @@ impl Show {
                     let names: Vec<Symbol> = model.actions.iter().map(|a| a.name.clone()).collect();
                     Failure::bad_input(format!("the model has no action `{name}`")).with_hint(or_one_of(name, &names))
                 })?;
-                write!(out, "{}", describe(action, &model, true))?;
+                write!(out, "{}", describe(action, &model, Some(&evidence)))?;
             }
         }
         Ok(Exit::Success)

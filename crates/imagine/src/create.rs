@@ -51,13 +51,13 @@ impl Proposal<'_> {
     }
 
     /// The imagined action, still with the name of the one it raises.
-    pub(crate) fn into_schema(self, context: &Context<'_>, goal: &GroundAtom) -> ActionSchema {
+    pub(crate) fn into_schema(self, goal: &GroundAtom) -> ActionSchema {
         let (mut action, replaced) = raised(self.schema, |i, _| self.types[i]);
         action.provenance = Provenance::Imagined {
             from: self.schema.name.clone(),
             replaced,
             goal: goal.clone(),
-            observations: context.model.observations(self.schema),
+            observations: self.schema.provenance.observations(),
         };
         action
     }

@@ -114,7 +114,7 @@ pub fn imagine(
                 }
             }
             if proposal.is_new() {
-                imagined.push(proposal.into_schema(&context, &atom));
+                imagined.push(proposal.into_schema(&atom));
             }
         }
         imagination.unreachable.push(atom);

@@ -22,7 +22,7 @@ pub(crate) fn create_substituted_actions(model: &ActionModel, imagined: &ActionS
                 from: action.name.clone(),
                 replaced,
                 following: imagined.name.clone(),
-                observations: model.observations(action),
+                observations: action.provenance.observations(),
             };
             substituted
         })

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use typelift::agent::{Account, Confirmation, Ending, Episode, Event, Experience, Observer, Options, RunError, run};
-use typelift::model::{ActionModel, Budget, Plan, Stop};
+use typelift::model::{ActionModel, Budget, ParseConfig, Plan, Stop};
 use typelift::world::{Parser, Reset, World};
 use typelift_kitchen::{Kitchen, KitchenTask};
 
@@ -62,7 +62,7 @@ pub fn attempt_in(
     budget: Budget,
 ) -> Result<Attempt, RunError> {
     let Setting { task, seed, experience } = setting;
-    let mut parser = Parser::new(model.hierarchy.clone(), model.parse.clone());
+    let mut parser = Parser::new(model.hierarchy.clone(), ParseConfig::default());
     let mut episode = Episode::new(Arc::clone(model), task.goal.clone(), options.clone(), experience, budget);
     let reset = Reset { seed, scenario: Some(task.scenario.clone()) };
     let mut stopwatch = Stopwatch::default();

@@ -63,8 +63,8 @@ impl TypeHierarchy {
     /// That of a model.
     pub fn new(model: &ActionModel) -> Self {
         let hierarchy = &model.hierarchy;
-        let clusters = model.evidence.clusters.keys();
-        let seen: BTreeSet<&str> = clusters.flat_map(|cluster| &cluster.types).map(Symbol::as_str).collect();
+        let support = model.actions.iter().flat_map(|action| action.provenance.support());
+        let seen: BTreeSet<&str> = support.flat_map(|support| &support.cluster.types).map(Symbol::as_str).collect();
         let top = hierarchy.top();
         let row = |ty: TypeId| TypeRow {
             name: hierarchy.name(ty).to_string(),
@@ -163,8 +163,8 @@ fn parameters(model: &ActionModel) -> Vec<ParameterRow> {
     let mut rows = Vec::new();
     for action in &model.actions {
         for (index, parameter) in (0..).zip(&action.parameters) {
-            let in_its_place = action.provenance.sources().iter().flat_map(|source| {
-                let types = source.cluster.types.iter().zip(&source.map);
+            let in_its_place = action.provenance.support().iter().flat_map(|support| {
+                let types = support.cluster.types.iter().zip(&support.map);
                 types.filter(move |&(_, &to)| to == index).map(|(ty, _)| ty.to_string())
             });
             let observed: BTreeSet<String> = in_its_place.collect();

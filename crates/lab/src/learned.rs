@@ -1,7 +1,7 @@
 //! Models learned from the kitchen's demonstrations, and from some of them.
 
-use typelift::learn::{self, Learned, learn_dataset};
-use typelift::model::{ActionModel, ParseConfig, Symbol};
+use typelift::learn::{self, Report, learn_dataset};
+use typelift::model::{ActionModel, LearnedModel, ParseConfig, Symbol};
 use typelift::world::{Dataset, Parser, Trace, TraceAction};
 use typelift_kitchen::{Demonstration, demonstrations, hierarchy};
 
@@ -31,12 +31,12 @@ pub fn dataset_of(demonstrations: &[Demonstration]) -> Dataset {
 ///
 /// # Panics
 /// If a demonstration speaks of a type that its hierarchy does not have.
-pub fn learned_from(demonstrations: &[Demonstration], individual: bool) -> Learned {
+pub fn learned_from(demonstrations: &[Demonstration], individual: bool) -> (LearnedModel, Report) {
     let options = learn::Options { individual, ..learn::Options::default() };
     learn_dataset(&dataset_of(demonstrations), &options).expect("the kitchen's own types")
 }
 
 /// The model of all eight demonstrations.
 pub fn kitchen_model(individual: bool) -> ActionModel {
-    learned_from(&demonstrations(0), individual).model
+    learned_from(&demonstrations(0), individual).0.model
 }

@@ -1,10 +1,11 @@
 //! CreateAction (Algorithm 1, line 4): an action from a cluster, and its final, named form.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use typelift_model::{
-    ActionModel, ActionSchema, ClusterKey, Cost, Effect, Evidence, Hierarchy, LiftedAtom, LiftedCall, Literal,
-    Parameter, Provenance, Source, Symbol, Term, TypeId, UniqueNames,
+    ActionModel, ActionSchema, Cluster, ClusterKey, Cost, Effect, Hierarchy, LiftedAtom, LiftedCall, Literal,
+    Parameter, Provenance, Support, Symbol, Term, TypeId, UniqueNames,
 };
 
 use crate::LearnError;
@@ -19,12 +20,13 @@ pub(crate) struct Draft {
     pub(crate) adds: BTreeSet<LiftedAtom>,
     pub(crate) deletes: BTreeSet<LiftedAtom>,
     /// The clusters it rests on, sorted.
-    pub(crate) sources: Vec<Source>,
+    pub(crate) support: Vec<Support>,
 }
 
 /// The individual action of a cluster.
 pub(crate) fn create_action(
     key: &ClusterKey,
+    cluster: &Cluster,
     preconditions: BTreeSet<LiftedAtom>,
     hierarchy: &Hierarchy,
 ) -> Result<Draft, LearnError> {
@@ -37,7 +39,11 @@ pub(crate) fn create_action(
         preconditions,
         adds: key.adds.iter().cloned().collect(),
         deletes: key.deletes.iter().cloned().collect(),
-        sources: vec![Source { cluster: key.clone(), map: (0..key.types.len() as u32).collect() }],
+        support: vec![Support {
+            cluster: Arc::new(key.clone()),
+            map: (0..key.types.len() as u32).collect(),
+            observations: cluster.count,
+        }],
     })
 }
 
@@ -49,8 +55,8 @@ impl Draft {
     }
 
     /// The number of observations that it rests on.
-    pub(crate) fn support(&self, evidence: &Evidence) -> u64 {
-        self.sources.iter().filter_map(|s| evidence.clusters.get(&s.cluster)).map(|cluster| cluster.count).sum()
+    pub(crate) fn observations(&self) -> u64 {
+        self.support.iter().map(|support| support.observations).sum()
     }
 
     /// The schema, named by its call alone; [`name_actions`] tells schemas apart.
@@ -59,9 +65,9 @@ impl Draft {
         let mut effects: Vec<Effect> = self.signed_effect().into_iter().map(literal).collect();
         effects.sort_unstable();
         let parameter = |(i, ty): (usize, &TypeId)| Parameter { name: Symbol::from(format!("x{i}")), ty: *ty };
-        let provenance = match <[Source; 1]>::try_from(self.sources) {
-            Ok([source]) => Provenance::Demonstrated(source),
-            Err(sources) => Provenance::Generalized(sources),
+        let provenance = match <[Support; 1]>::try_from(self.support) {
+            Ok([support]) => Provenance::Demonstrated(support),
+            Err(support) => Provenance::Generalized(support),
         };
         ActionSchema {
             name: self.action.clone(),
@@ -71,6 +77,9 @@ impl Draft {
             preconditions: self.preconditions.into_iter().map(Literal::positive).collect(),
             effects,
             cost: Cost::UNIT,
+            // A cluster's add effects are what became true in each of its transitions.
+            strict: true,
+            named_by_call: false,
             provenance,
         }
     }

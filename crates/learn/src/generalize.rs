@@ -14,7 +14,7 @@
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
-use typelift_model::{Evidence, Hierarchy, LiftedAtom, Source, Symbol, TypeId, effect_bijections};
+use typelift_model::{Evidence, Hierarchy, LiftedAtom, Support, Symbol, TypeId, effect_bijections};
 
 use crate::draft::Draft;
 use crate::score::score_action;
@@ -60,7 +60,7 @@ fn first_merge(
             let Some(correspondence) = corresponding_parameters(left, right, hierarchy) else { continue };
             let types = create_gen_pars(left, right, &correspondence, hierarchy);
             let generalized = create_gen_action(left, right, &correspondence, types);
-            let score = |a: &Draft| score_action(&a.preconditions, &a.sources, evidence);
+            let score = |a: &Draft| score_action(&a.preconditions, &a.support, evidence);
             *scored += 1;
             if score(&generalized).at_least_mean_of(score(left), score(right)) {
                 return Some((i, j, generalized));
@@ -100,13 +100,13 @@ fn create_gen_action(left: &Draft, right: &Draft, correspondence: &[u32], types:
         to_left[r as usize] = l as u32;
     }
     let moved = right.preconditions.iter().map(|atom| atom.renamed(&to_left)).collect();
-    let mut sources = left.sources.clone();
-    sources.extend(right.sources.iter().map(|source| Source {
-        cluster: source.cluster.clone(),
-        map: source.map.iter().map(|&parameter| to_left[parameter as usize]).collect(),
+    let mut support = left.support.clone();
+    support.extend(right.support.iter().map(|of_right| Support {
+        map: of_right.map.iter().map(|&parameter| to_left[parameter as usize]).collect(),
+        ..of_right.clone()
     }));
-    sources.sort_by(|a, b| a.cluster.cmp(&b.cluster));
-    Draft { types, preconditions: best_candidate(&left.preconditions, &moved), sources, ..left.clone() }
+    support.sort_by(|a, b| a.cluster.cmp(&b.cluster));
+    Draft { types, preconditions: best_candidate(&left.preconditions, &moved), support, ..left.clone() }
 }
 
 /// The best of the candidates `common ∪ subset of the difference`: the common preconditions (see the file's head).

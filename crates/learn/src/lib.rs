@@ -20,7 +20,7 @@
 //!
 //! let demonstrations = Dataset::default(); // read from files, or recorded
 //! let evidence = evidence_of(&demonstrations);
-//! let learned = learn(&demonstrations.hierarchy, evidence, &Options::default()).unwrap();
+//! let learned = learn(&demonstrations.hierarchy, &evidence, &Options::default()).unwrap();
 //! assert_eq!(learned.model.actions.len(), learned.report.generalized);
 //! ```
 #![deny(missing_docs)]
@@ -34,7 +34,7 @@ mod score;
 use std::collections::BTreeMap;
 
 use thiserror::Error;
-use typelift_model::{ActionModel, Evidence, Hierarchy, Symbol};
+use typelift_model::{ActionModel, Evidence, Hierarchy, LearnedModel, Symbol};
 use typelift_world::Dataset;
 
 pub use cluster::observe;
@@ -104,31 +104,31 @@ pub fn evidence_of(dataset: &Dataset) -> Evidence {
     evidence
 }
 
-/// Algorithm 1 from a dataset: the model also keeps how its snapshots were read and every predicate met.
+/// Algorithm 1 from a dataset: the model with its evidence, how its snapshots were read and every predicate met.
 ///
 /// # Errors
 /// [`LearnError::UnknownType`] for a declared actor that the hierarchy does not have.
-pub fn learn_dataset(dataset: &Dataset, options: &Options) -> Result<Learned, LearnError> {
-    let mut learned = learn(&dataset.hierarchy, evidence_of(dataset), options)?;
-    learned.model.predicates.extend(dataset.predicates.clone());
-    learned.model.parse = dataset.parse.clone();
-    Ok(learned)
+pub fn learn_dataset(dataset: &Dataset, options: &Options) -> Result<(LearnedModel, Report), LearnError> {
+    let evidence = evidence_of(dataset);
+    let Learned { mut model, report } = learn(&dataset.hierarchy, &evidence, options)?;
+    model.predicates.extend(dataset.predicates.clone());
+    Ok((LearnedModel { model, parse: dataset.parse.clone(), evidence }, report))
 }
 
 /// Algorithm 1 after clustering: a pure function of the evidence.
 ///
 /// # Errors
 /// [`LearnError::UnknownType`] if the evidence or a declared actor names a type that `hierarchy` does not have.
-pub fn learn(hierarchy: &Hierarchy, evidence: Evidence, options: &Options) -> Result<Learned, LearnError> {
+pub fn learn(hierarchy: &Hierarchy, evidence: &Evidence, options: &Options) -> Result<Learned, LearnError> {
     let mut actions = Vec::with_capacity(evidence.clusters.len());
     for (key, cluster) in &evidence.clusters {
         let preconditions = precondition::extract_preconditions(cluster);
-        actions.push(draft::create_action(key, preconditions, hierarchy)?);
+        actions.push(draft::create_action(key, cluster, preconditions, hierarchy)?);
     }
     let individual = actions.len();
     let mut scored_pairs = 0;
     if !options.individual {
-        (actions, scored_pairs) = generalize::to_fixed_point(actions, &evidence, hierarchy);
+        (actions, scored_pairs) = generalize::to_fixed_point(actions, evidence, hierarchy);
     }
     let report = Report {
         transitions: evidence.transitions,
@@ -137,13 +137,12 @@ pub fn learn(hierarchy: &Hierarchy, evidence: Evidence, options: &Options) -> Re
         scored_pairs,
         unchanged: evidence.unchanged(),
         unexplained: evidence.unexplained.values().map(|(count, _)| count).sum(),
-        single_support: actions.iter().filter(|action| action.support(&evidence) == 1).count(),
+        single_support: actions.iter().filter(|action| action.observations() == 1).count(),
     };
     let mut model = ActionModel {
         predicates: predicates_of(&actions),
         hierarchy: hierarchy.clone(),
         actions: actions.into_iter().map(Draft::into_schema).collect(),
-        evidence,
         ..ActionModel::default()
     };
     model.actor = match &options.actor {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use typelift_model::{Evidence, LiftedAtom, Source};
+use typelift_model::{Evidence, LiftedAtom, Support};
 
 /// Recall: of `total` positive observations, `hits` have a pre-state that contains the preconditions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,13 +20,13 @@ impl Recall {
     }
 }
 
-/// The recall of `preconditions` on the observations of `sources`, each under its mapping of parameters.
-pub(crate) fn score_action(preconditions: &BTreeSet<LiftedAtom>, sources: &[Source], evidence: &Evidence) -> Recall {
+/// The recall of `preconditions` on the observations of clusters, each under its mapping of parameters.
+pub(crate) fn score_action(preconditions: &BTreeSet<LiftedAtom>, support: &[Support], evidence: &Evidence) -> Recall {
     let mut recall = Recall { hits: 0, total: 0 };
-    for source in sources {
-        let Some(cluster) = evidence.clusters.get(&source.cluster) else { continue };
-        let mut back = vec![0; source.map.len()];
-        for (own, &parameter) in source.map.iter().enumerate() {
+    for Support { cluster, map, .. } in support {
+        let Some(cluster) = evidence.clusters.get(&**cluster) else { continue };
+        let mut back = vec![0; map.len()];
+        for (own, &parameter) in map.iter().enumerate() {
             back[parameter as usize] = own as u32;
         }
         let (hits, total) = cluster.states.containing(&preconditions.iter().map(|a| a.renamed(&back)).collect());

@@ -164,6 +164,12 @@ pub struct ActionSchema {
     pub effects: Vec<Effect>,
     /// Its cost; 1 for learned actions.
     pub cost: Cost,
+    /// Whether every add effect was a change whenever it was observed, so that [`strict`](crate::strict) may ask for its
+    /// atom to be false before.
+    pub strict: bool,
+    /// Whether plan files name it by its call, as PDDL does, and not by its own name with all of its parameters. Only
+    /// where a call has one effect is the call enough.
+    pub named_by_call: bool,
     /// Where it comes from.
     pub provenance: Provenance,
 }
@@ -197,16 +203,13 @@ impl ActionSchema {
         (sum, self.parameters.len().max(1) as u64)
     }
 
-    /// How a plan file names the action: a given one by its call, any other by its own name and all of its parameters,
-    /// since one call may have several effects.
+    /// How a plan file names the action: by its [call](Self::named_by_call), or by its own name and all of its
+    /// parameters, since one call may have several effects.
     pub fn signature(&self) -> LiftedCall {
-        match self.provenance {
-            Provenance::Given => self.call.clone(),
-            _ => LiftedCall {
-                name: self.name.clone(),
-                args: (0..self.parameters.len() as u32).map(Term::Param).collect(),
-            },
+        if self.named_by_call {
+            return self.call.clone();
         }
+        LiftedCall { name: self.name.clone(), args: (0..self.parameters.len() as u32).map(Term::Param).collect() }
     }
 
     /// The step of a plan that this action is with these objects in place of its parameters, at this cost.

@@ -1,21 +1,17 @@
-//! The learned model: types, predicates and actions, with the evidence they rest on.
+//! What plans are made with: types, predicates, actions and axioms.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::{
-    ActionSchema, Axiom, Evidence, Hierarchy, NameCollision, ParseConfig, PddlNames, Provenance, Replacement, Symbol,
-    TypeId,
-};
+use crate::{ActionSchema, Axiom, Hierarchy, NameCollision, PddlNames, Replacement, Symbol, TypeId};
 
-/// A symbolic action model (paper: 𝒜 with 𝓗).
+/// A symbolic action model (paper: 𝒜 with 𝓗): everything that planning needs, and nothing of what it was learned from,
+/// which a [`LearnedModel`](crate::LearnedModel) has.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct ActionModel {
     /// The type hierarchy.
     pub hierarchy: Hierarchy,
     /// Every predicate that was seen, with its number of arguments.
     pub predicates: BTreeMap<Symbol, usize>,
-    /// How snapshots are read.
-    pub parse: ParseConfig,
     /// The type of whoever acts, if there is one: it is not blamed when a step fails.
     pub actor: Option<TypeId>,
     /// The objects that actions and axioms mention by name, with their types. Every task has them.
@@ -24,8 +20,6 @@ pub struct ActionModel {
     pub actions: Vec<ActionSchema>,
     /// How derived predicates follow; learned models have none.
     pub axioms: Vec<Axiom>,
-    /// What they rest on.
-    pub evidence: Evidence,
 }
 
 /// The PDDL names of everything that a model names.
@@ -37,17 +31,18 @@ pub struct ModelPddlNames {
     pub predicates: PddlNames,
     /// Of its actions.
     pub actions: PddlNames,
-    /// Of the calls of its given actions.
+    /// Of the calls of the actions that plan files name by them.
     pub calls: PddlNames,
 }
 
 impl ModelPddlNames {
     /// How plan files name this action of the model: by what its [signature](ActionSchema::signature) is called.
     pub fn in_plans<'a>(&'a self, action: &'a ActionSchema) -> &'a Symbol {
-        match action.provenance {
-            Provenance::Given => self.calls.pddl(action.call.name.as_str()).unwrap_or(&action.call.name),
-            _ => self.actions.pddl(action.name.as_str()).unwrap_or(&action.name),
-        }
+        let (names, name) = match action.named_by_call {
+            true => (&self.calls, &action.call.name),
+            false => (&self.actions, &action.name),
+        };
+        names.pddl(name.as_str()).unwrap_or(name)
     }
 }
 
@@ -62,26 +57,17 @@ impl ActionModel {
         self.actor.is_some_and(|actor| self.hierarchy.is_a(ty, actor))
     }
 
-    /// The number of observations behind an action, imagined ones counting those of the action they raise.
-    pub fn observations(&self, action: &ActionSchema) -> u64 {
-        if let Some((_, _, observations)) = action.provenance.imagined() {
-            return observations;
-        }
-        let sources = action.provenance.sources().iter();
-        sources.filter_map(|s| self.evidence.clusters.get(&s.cluster)).map(|cluster| cluster.count).sum()
-    }
-
     /// The reversible mapping of its names to PDDL's.
     ///
     /// # Errors
     /// [`NameCollision`] if two names differ only in what PDDL does not tell apart.
     pub fn pddl_names(&self) -> Result<ModelPddlNames, NameCollision> {
-        let given = self.actions.iter().filter(|action| action.provenance == Provenance::Given);
+        let by_call = self.actions.iter().filter(|action| action.named_by_call);
         Ok(ModelPddlNames {
             types: PddlNames::fold("type", self.hierarchy.types().map(|t| self.hierarchy.name(t)))?,
             predicates: PddlNames::fold("predicate", self.predicates.keys())?,
             actions: PddlNames::fold("action", self.actions.iter().map(|a| &a.name))?,
-            calls: PddlNames::fold("action", given.map(|a| &a.call.name))?,
+            calls: PddlNames::fold("action", by_call.map(|a| &a.call.name))?,
         })
     }
 
@@ -156,17 +142,4 @@ pub fn describe_replacements(replaced: &[Replacement], hierarchy: &Hierarchy) ->
         replaced.iter().map(|r| format!("{} for {}", hierarchy.name(r.to), hierarchy.name(r.from))).collect();
     pairs.dedup();
     pairs.join(", ")
-}
-
-impl Provenance {
-    /// A word for the kind of provenance.
-    pub fn kind(&self) -> &'static str {
-        match self {
-            Self::Given => "given",
-            Self::Demonstrated(_) => "individual",
-            Self::Generalized(_) => "generalized",
-            Self::Imagined { .. } => "imagined",
-            Self::Substituted { .. } => "substituted",
-        }
-    }
 }

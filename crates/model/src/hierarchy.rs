@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt;
+use std::sync::Arc;
 
 use thiserror::Error;
 
@@ -67,11 +68,12 @@ struct Node {
     depth: u32,
 }
 
-/// A tree of types below the root `object`. Immutable; [`extended`](Self::extended) makes a larger one.
+/// A tree of types below the root `object`. Immutable and cheap to clone; [`extended`](Self::extended) makes a larger
+/// one.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Hierarchy {
-    nodes: Vec<Node>,
-    by_name: HashMap<Symbol, TypeId>,
+    nodes: Arc<Vec<Node>>,
+    by_name: Arc<HashMap<Symbol, TypeId>>,
 }
 
 impl Default for Hierarchy {
@@ -79,8 +81,8 @@ impl Default for Hierarchy {
         let root = TypeId(0);
         let name = Symbol::new(ROOT);
         Self {
-            nodes: vec![Node { name: name.clone(), parent: root, depth: 0 }],
-            by_name: HashMap::from_iter([(name, root)]),
+            nodes: Arc::new(vec![Node { name: name.clone(), parent: root, depth: 0 }]),
+            by_name: Arc::new(HashMap::from_iter([(name, root)])),
         }
     }
 }
@@ -158,8 +160,8 @@ impl Hierarchy {
         for name in chain.into_iter().rev() {
             let id = TypeId(u32::try_from(self.nodes.len()).unwrap_or(u32::MAX));
             let depth = self.depth(parent) + 1;
-            self.nodes.push(Node { name: name.clone(), parent, depth });
-            self.by_name.insert(name, id);
+            Arc::make_mut(&mut self.nodes).push(Node { name: name.clone(), parent, depth });
+            Arc::make_mut(&mut self.by_name).insert(name, id);
             parent = id;
         }
         Ok(())

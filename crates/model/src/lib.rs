@@ -2,8 +2,8 @@
 //!
 //! What is *observed* is a [`State`] (objects with types, and the ground atoms that hold) and, between two
 //! states, a [`GroundCall`]. What is *learned* is an [`ActionModel`]: a [`Hierarchy`] of types and a list of
-//! lifted [`ActionSchema`]s, each with the [`Evidence`] it rests on. What is *asked* is a [`Task`], what is
-//! *answered* a [`Plan`].
+//! lifted [`ActionSchema`]s; a [`LearnedModel`] keeps the [`Evidence`] they rest on beside it. What is *asked* is a
+//! [`Task`], what is *answered* a [`Plan`].
 //!
 //! Ground and lifted things are different types: [`GroundAtom`] is an [`Atom`] over [`Symbol`]s,
 //! [`LiftedAtom`] one over [`Term`]s. Everything symbolic is ordered by its name, never by an interning
@@ -12,8 +12,6 @@
 
 mod action;
 mod action_model;
-mod action_model_file;
-mod action_model_reader;
 mod atom;
 mod axiom;
 mod budget;
@@ -23,6 +21,9 @@ mod goal;
 mod hierarchy;
 mod instantiate;
 mod json_message;
+mod learned_model;
+mod model_file;
+mod model_reader;
 mod parse_config;
 mod pddl_names;
 mod plan;
@@ -37,8 +38,6 @@ mod unify;
 
 pub use action::{ActionSchema, Cost, Effect, GroundCall, LiftedCall, Literal, Parameter};
 pub use action_model::{ActionModel, ModelPddlNames, UniqueNames, describe_replacements, schema_name};
-pub use action_model_file::{MODEL_FORMAT, ModelFileError};
-pub use action_model_reader::MOST_PRECONDITIONS;
 pub use atom::{Atom, AtomTextError, EQUALS, GroundAtom, LiftedAtom, Term, check_name};
 pub use axiom::Axiom;
 pub use budget::{Budget, Stop};
@@ -50,11 +49,14 @@ pub use goal::Goal;
 pub use hierarchy::{Hierarchy, HierarchyError, ROOT, TypeId};
 pub use instantiate::{GroundAction, InstantiateError};
 pub use json_message::json_message;
+pub use learned_model::LearnedModel;
+pub use model_file::{MODEL_FORMAT, ModelFileError};
+pub use model_reader::MOST_PRECONDITIONS;
 pub use parse_config::ParseConfig;
 pub use pddl_names::{NameCollision, PddlNames};
 pub use plan::{Imagined, Plan, Step};
 pub use printable::printable;
-pub use provenance::{Provenance, Replacement, Source};
+pub use provenance::{Provenance, Replacement, Support};
 pub use similar::{did_you_mean, nearest};
 pub use state::State;
 pub use strict::strict;

@@ -1,14 +1,18 @@
 //! Where an action comes from.
 
+use std::sync::Arc;
+
 use crate::{ClusterKey, GroundAtom, Symbol, TypeId};
 
 /// A cluster of observations, as seen from an action that rests on it.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Source {
+pub struct Support {
     /// The cluster.
-    pub cluster: ClusterKey,
+    pub cluster: Arc<ClusterKey>,
     /// For each parameter of the cluster, the parameter of the action it corresponds to.
     pub map: Vec<u32>,
+    /// How many observations there were in the cluster.
+    pub observations: u64,
 }
 
 /// A parameter whose type was raised.
@@ -28,9 +32,9 @@ pub enum Provenance {
     /// Written by somebody, as in a PDDL domain.
     Given,
     /// Learned from one cluster of observations (an *individual* action).
-    Demonstrated(Source),
+    Demonstrated(Support),
     /// Generalized from several individual actions, sorted.
-    Generalized(Vec<Source>),
+    Generalized(Vec<Support>),
     /// Imagined for an atom that could not be reached (Algorithm 2).
     Imagined {
         /// The learned action it raises.
@@ -56,6 +60,15 @@ pub enum Provenance {
 }
 
 impl Provenance {
+    /// The number of observations behind the action, imagined ones counting those of the action they raise; none behind
+    /// a given one.
+    pub fn observations(&self) -> u64 {
+        match self.imagined() {
+            Some((_, _, observations)) => observations,
+            None => self.support().iter().map(|support| support.observations).sum(),
+        }
+    }
+
     /// The learned action, raised parameters and observations of an imagined or substituted action.
     pub fn imagined(&self) -> Option<(&Symbol, &[Replacement], u64)> {
         match self {
@@ -66,10 +79,10 @@ impl Provenance {
     }
 
     /// The clusters that a learned action rests on.
-    pub fn sources(&self) -> &[Source] {
+    pub fn support(&self) -> &[Support] {
         match self {
-            Self::Demonstrated(source) => std::slice::from_ref(source),
-            Self::Generalized(sources) => sources,
+            Self::Demonstrated(support) => std::slice::from_ref(support),
+            Self::Generalized(support) => support,
             Self::Given | Self::Imagined { .. } | Self::Substituted { .. } => &[],
         }
     }

@@ -5,13 +5,13 @@
 //! learned action deletes are among its preconditions anyway. This goes beyond the paper, whose preconditions are
 //! positive only.
 
-use crate::{ActionModel, Literal, Provenance};
+use crate::{ActionModel, Literal};
 
-/// The model with, for each unconditional add effect of each learned or imagined action, the negation of its atom
-/// among the preconditions. Given actions stay as they are.
+/// The model with, for each unconditional add effect of each action that [is strict](crate::ActionSchema::strict), the
+/// negation of its atom among the preconditions. Other actions, as given ones, stay as they are.
 pub fn strict(model: &ActionModel) -> ActionModel {
     let mut model = model.clone();
-    for action in model.actions.iter_mut().filter(|a| a.provenance != Provenance::Given) {
+    for action in model.actions.iter_mut().filter(|action| action.strict) {
         let mut preconditions = action.preconditions.clone();
         for effect in action.effects.iter().filter(|e| e.literal.positive && e.is_unconditional()) {
             let already_true = preconditions.iter().any(|l| l.positive && l.atom == effect.literal.atom);

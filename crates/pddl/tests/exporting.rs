@@ -53,6 +53,8 @@ fn model() -> ActionModel {
         distinct: ActionSchema::all_distinct(3),
         effects: effects(&["is_Ready(?1)", "not near(?1,?2)"]),
         cost: Cost::UNIT,
+        strict: true,
+        named_by_call: false,
         provenance: Provenance::Imagined {
             from: "USE-saw".into(),
             replaced: vec![Replacement { parameter: 1, from: ty("Saw"), to: ty("machine") }],
@@ -68,6 +70,8 @@ fn model() -> ActionModel {
         distinct: Vec::new(),
         effects: effects(&["not is_Ready(saw_1)", "not dark()"]),
         cost: Cost::UNIT,
+        strict: false,
+        named_by_call: true,
         provenance: Provenance::Given,
     };
     let predicates = [("near", 2), ("is_Ready", 1), ("dark", 0), ("at", 2), ("unused", 1)];
@@ -380,6 +384,8 @@ fn with_a_hand() -> ActionModel {
         distinct: Vec::new(),
         effects: effects(all),
         cost: Cost::UNIT,
+        strict: false,
+        named_by_call: true,
         provenance: Provenance::Given,
     };
     let places = [("who", "agent"), ("what", "machine"), ("where", "station")];

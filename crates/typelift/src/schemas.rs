@@ -2,7 +2,7 @@
 
 use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema};
-use typelift_model::ActionModel;
+use typelift_model::LearnedModel;
 use typelift_world::{Answer, Request, TaskFile, TraceLine};
 
 /// Each schema, by the name that its file has. A trace is described by the schema of one of its lines.
@@ -10,7 +10,7 @@ pub fn schemas() -> [(&'static str, serde_json::Value); 5] {
     [
         ("trace", schema::<TraceLine<'_>>("A line of a trace, format trace/1")),
         ("task", schema::<TaskFile>("A task, format task/1")),
-        ("model", schema::<ActionModel>("A model, format model/1")),
+        ("model", schema::<LearnedModel>("A model, format model/2")),
         ("env-request", schema::<Request>("A request to an environment, protocol env/1")),
         ("env-answer", schema::<Answer>("An environment's answer, protocol env/1")),
     ]

@@ -1,6 +1,6 @@
 //! Domains.
 
-use typelift::model::{ActionModel, ModelFileError};
+use typelift::model::{ActionModel, LearnedModel, ModelFileError};
 use typelift::pddl::{
     Domain, compile_domain, format, read_domain, read_hierarchy, required_by_domain, undeclared_requirements,
 };
@@ -36,7 +36,7 @@ pub(super) fn checked_domain(text: &str) -> Option<(Domain, ActionModel)> {
     match compile_domain(&domain) {
         Ok(model) => {
             assert_eq!(model.hierarchy, hierarchy);
-            assert_kept(&model);
+            assert_kept(&model.clone().into());
             Some((domain, model))
         }
         Err(error) => {
@@ -49,10 +49,10 @@ pub(super) fn checked_domain(text: &str) -> Option<(Domain, ActionModel)> {
 }
 
 /// That a model survives its file. The only reason not to write one is that its names collide.
-pub(super) fn assert_kept(model: &ActionModel) {
+pub(super) fn assert_kept(model: &LearnedModel) {
     match model.to_json() {
         Ok(json) => {
-            let read = ActionModel::from_json(&json).unwrap_or_else(|error| panic!("{error}:\n{json}"));
+            let read = LearnedModel::from_json(&json).unwrap_or_else(|error| panic!("{error}:\n{json}"));
             assert_eq!(read, *model);
             assert_eq!(read.to_json().ok(), Some(json));
         }

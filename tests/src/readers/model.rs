@@ -1,7 +1,7 @@
 //! Model files.
 
 use typelift::learn::{Options, learn};
-use typelift::model::{ActionModel, GroundAtom, ModelFileError, Symbol, Task, Term, strict};
+use typelift::model::{ActionModel, GroundAtom, LearnedModel, ModelFileError, Symbol, Task, Term, strict};
 
 use super::domain::assert_kept;
 use super::errors::assert_printable;
@@ -12,8 +12,8 @@ use super::text_of;
 /// learned further.
 pub fn model(bytes: &[u8]) {
     let text = text_of(bytes);
-    let model = match ActionModel::from_json(&text) {
-        Ok(model) => model,
+    let learned = match LearnedModel::from_json(&text) {
+        Ok(learned) => learned,
         Err(error) => {
             if let ModelFileError::Json { line, column, message } = error {
                 assert_printable(&message);
@@ -22,13 +22,14 @@ pub fn model(bytes: &[u8]) {
             return;
         }
     };
-    model.to_json().expect("what was read can be written");
-    assert_kept(&model);
-    let strict = strict(&model);
-    assert_kept(&strict);
+    learned.to_json().expect("what was read can be written");
+    assert_kept(&learned);
+    let LearnedModel { model, evidence, .. } = &learned;
+    let strict = strict(model);
+    assert_kept(&LearnedModel { model: strict.clone(), ..learned.clone() });
     // It may speak of a type that is not in the hierarchy.
-    let _ = learn(&model.hierarchy, model.evidence.clone(), &Options::default());
-    valid_plans(&strict, &small_task(&model));
+    let _ = learn(&model.hierarchy, evidence, &Options::default());
+    valid_plans(&strict, &small_task(model));
 }
 
 /// From two objects of each type and nothing that holds, to one thing that an action adds.

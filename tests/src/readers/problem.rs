@@ -53,7 +53,7 @@ pub(super) fn checked_problem(text: &str, domain: &Domain, mut model: ActionMode
     read_objects(text).expect("the objects alone are read as well");
     match compile_problem(&problem, &mut model) {
         Ok(task) => {
-            assert_kept(&model);
+            assert_kept(&model.clone().into());
             Some((model, task))
         }
         Err(error) => {

@@ -12,9 +12,9 @@ fn models_that_are_none() {
     for (title, text) in [
         ("an empty file", String::new()),
         ("cut off", text[..text.len() / 3].to_owned()),
-        ("another version", text.replacen("model/1", "model/2", 1)),
+        ("another version", text.replacen("model/2", "model/3", 1)),
         ("no version", text.replacen("\"format\"", "\"form\"", 1)),
-        ("a number as version", text.replacen("\"model/1\"", "1", 1)),
+        ("a number as version", text.replacen("\"model/2\"", "1", 1)),
         ("not JSON", "hello".to_owned()),
         ("a JSON list", "[]".to_owned()),
         ("something after the end", format!("{text}\n{{}}")),

@@ -109,7 +109,7 @@ impl Experiment for SubsetExperiment<'_> {
 
     fn run(&self, run: &SubsetRun, stopper: &Stopper) -> Result<Option<SubsetRecord>, LabError> {
         let shown: Vec<Demonstration> = run.shown.choose(&self.demonstrations);
-        let model = Arc::new(learned_from(&shown, run.variant.individual()).model);
+        let model = Arc::new(learned_from(&shown, run.variant.individual()).0.model);
         let options = typelift::agent::Options {
             max_proposals: self.options.limits.max_proposals,
             ..paper_options(run.variant.imagines())

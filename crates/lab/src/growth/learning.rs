@@ -1,7 +1,7 @@
 //! Learning from a stream of transitions, measured: each is observed once and forgotten.
 
-use typelift::learn::{Options, learn, observe};
-use typelift::model::{Evidence, Stop};
+use typelift::learn::{Learned, Options, learn, observe};
+use typelift::model::{Evidence, LearnedModel, ParseConfig, Stop};
 use typelift::world::Transition;
 use typelift_kitchen::hierarchy;
 
@@ -34,12 +34,13 @@ pub(crate) fn measure(transitions: u64, seconds: f64) -> Measurement {
         }
     }
     let begun = Stopwatch::start();
-    let learned = learn(&hierarchy, evidence, &Options::default()).expect("the kitchen's own types");
+    let Learned { model, report } = learn(&hierarchy, &evidence, &Options::default()).expect("the kitchen's own types");
     let spent = observing + begun.seconds();
-    let model_bytes = learned.model.to_json().map_or(0, |text| text.len() as u64);
+    let learned = LearnedModel { model, parse: ParseConfig::default(), evidence };
+    let model_bytes = learned.to_json().map_or(0, |text| text.len() as u64);
     Measurement {
-        actions: Some(learned.report.generalized as u64),
-        individual_actions: Some(learned.report.individual as u64),
+        actions: Some(report.generalized as u64),
+        individual_actions: Some(report.individual as u64),
         observing_seconds: Some(observing),
         model_bytes: Some(model_bytes),
         peak_bytes: super::memory::peak_bytes(),

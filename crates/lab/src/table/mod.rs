@@ -173,9 +173,9 @@ pub struct TableResult {
 pub fn table(options: &TableOptions, conduct: &Conduct<'_>) -> Result<TableResult, LabError> {
     let shown = demonstrations(0);
     let learned = [false, true].map(|individual| learned_from(&shown, individual));
-    let transitions = learned[0].report.transitions;
+    let transitions = learned[0].1.transitions;
     let models: BTreeMap<Variant, Arc<ActionModel>> =
-        Variant::ALL.map(|v| (v, Arc::new(learned[usize::from(v.individual())].model.clone()))).into();
+        Variant::ALL.map(|v| (v, Arc::new(learned[usize::from(v.individual())].0.model.clone()))).into();
     let mut tasks = tasks();
     tasks.retain(|task| !options.quick || QUICK.contains(&task.name.as_str()));
     let actions = models.iter().map(|(variant, model)| (*variant, model.actions.len())).collect();

@@ -6,6 +6,7 @@ use proptest::prelude::*;
 use typelift_model::{ActionModel, Atom, GroundAtom, GroundCall, State, Symbol, Task, TypeId};
 
 use super::limits::Limits;
+use super::tests::written_and_read;
 use super::{domain_within, problem_within};
 use crate::generate::{Tape, domain_and_problem, ground_atoms};
 use crate::{Action, Amount, Domain, Formula, PddlAtom, PddlEffect, PddlTerm, Problem, Typed};
@@ -193,11 +194,11 @@ fn random_state(meaning: &Meaning<'_>, task: &Task, seed: u64) -> State {
 /// Asserts the law for one domain and problem in some states.
 fn check(domain: &Domain, problem: &Problem, limits: Limits, seeds: &[u64]) {
     let model = domain_within(domain, limits).expect("it compiles");
-    let read = ActionModel::from_json(&model.to_json().expect("it is written")).expect("it is read");
+    let read = written_and_read(&model);
     assert_eq!(read, model);
     let mut with_goal = model.clone();
     let task = problem_within(problem, &mut with_goal, limits).expect("it compiles");
-    let read = ActionModel::from_json(&with_goal.to_json().expect("it is written")).expect("it is read");
+    let read = written_and_read(&with_goal);
     assert_eq!(read, with_goal);
 
     let has_costs = domain.actions.iter().any(|action| super::increases(&action.effect)) && problem.minimizes_cost;

@@ -96,6 +96,8 @@ fn schema(
         distinct,
         effects,
         cost: Cost { fixed: compiled.changes.fixed, functions },
+        strict: false,
+        named_by_call: true,
         provenance: Provenance::Given,
     }))
 }

@@ -48,7 +48,7 @@ impl Writer<'_> {
 
     fn provenance(&self, action: &ActionSchema) -> String {
         let hierarchy = &self.model.hierarchy;
-        let observations = match self.model.observations(action) {
+        let observations = match action.provenance.observations() {
             1 => "1 observation".to_owned(),
             n => format!("{n} observations"),
         };

@@ -5,7 +5,7 @@ mod axioms;
 mod effects;
 mod goals;
 
-use typelift_model::{ActionModel, Literal, Parameter, Symbol, Task};
+use typelift_model::{ActionModel, LearnedModel, Literal, Parameter, Symbol, Task};
 
 use super::limits::Limits;
 use super::{CompileError, compile_domain, compile_problem, domain_within};
@@ -176,9 +176,15 @@ fn axioms(model: &ActionModel) -> Vec<String> {
     model.axioms.iter().map(shown_axiom).collect()
 }
 
+/// The model, written to its file and read again.
+pub(super) fn written_and_read(model: &ActionModel) -> ActionModel {
+    let text = LearnedModel::from(model.clone()).to_json().expect("it is written");
+    LearnedModel::from_json(&text).expect("it is read").model
+}
+
 fn compiled(domain: &Domain) -> ActionModel {
     let model = compile_domain(domain).expect("it compiles");
-    let read = ActionModel::from_json(&model.to_json().expect("it is written")).expect("it is read");
+    let read = written_and_read(&model);
     assert_eq!(read, model);
     model
 }

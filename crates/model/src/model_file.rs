@@ -7,13 +7,15 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::{
-    ActionModel, ActionSchema, Axiom, Cluster, ClusterKey, Effect, Evidence, GroundAtom, Hierarchy, HierarchyError,
-    LiftedAtom, Literal, NameCollision, NegativeKey, Parameter, ParseConfig, Provenance, Replacement, Source, Symbol,
+    ActionSchema, Axiom, Cluster, ClusterKey, Effect, Evidence, GroundAtom, Hierarchy, HierarchyError, LearnedModel,
+    LiftedAtom, Literal, NameCollision, NegativeKey, Parameter, ParseConfig, Provenance, Replacement, Support, Symbol,
     Unexplained, Witness,
 };
 
-/// The format that this version reads and writes.
-pub const MODEL_FORMAT: &str = "model/1";
+/// The format that this version writes.
+pub const MODEL_FORMAT: &str = "model/2";
+/// The format before, which is still read: what an action's provenance says was not yet said of the action itself.
+pub(crate) const MODEL_FORMAT_1: &str = "model/1";
 
 /// Why a text is not a model.
 #[derive(Debug, Error)]
@@ -29,7 +31,9 @@ pub enum ModelFileError {
         message: String,
     },
     /// It is of another version.
-    #[error("this is a file of format `{found}`; this version of typelift reads `{MODEL_FORMAT}`")]
+    #[error(
+        "this is a file of format `{found}`; this version of typelift reads `{MODEL_FORMAT_1}` and `{MODEL_FORMAT}`"
+    )]
     Version {
         /// The format it names.
         found: String,
@@ -120,6 +124,12 @@ pub(crate) struct ActionFile {
     /// Functions of the task whose values are added to the cost.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(crate) cost_functions: Vec<LiftedAtom>,
+    /// Whether every add effect was a change whenever it was observed.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub(crate) strict: bool,
+    /// Whether plan files name it by its call.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub(crate) named_by_call: bool,
     pub(crate) provenance: ProvenanceFile,
 }
 
@@ -174,8 +184,8 @@ pub(crate) struct AxiomFile {
 pub(crate) enum ProvenanceFile {
     Given,
     /// The cluster's number in `evidence`, and the action's parameter for each of the cluster's.
-    Demonstrated(SourceFile),
-    Generalized(Vec<SourceFile>),
+    Demonstrated(SupportFile),
+    Generalized(Vec<SupportFile>),
     Imagined {
         from: Symbol,
         replaced: Vec<(u32, Symbol, Symbol)>,
@@ -192,7 +202,7 @@ pub(crate) enum ProvenanceFile {
 
 #[derive(Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub(crate) struct SourceFile {
+pub(crate) struct SupportFile {
     pub(crate) cluster: usize,
     pub(crate) map: Vec<u32>,
 }
@@ -237,7 +247,7 @@ pub(crate) struct UnexplainedFile {
 }
 
 #[cfg(feature = "schema")]
-impl schemars::JsonSchema for ActionModel {
+impl schemars::JsonSchema for LearnedModel {
     fn schema_name() -> std::borrow::Cow<'static, str> {
         "Model".into()
     }
@@ -247,17 +257,19 @@ impl schemars::JsonSchema for ActionModel {
     }
 }
 
-impl ActionModel {
+impl LearnedModel {
     /// The model as JSON text, ending in a line feed; equal models give equal bytes.
     ///
     /// # Errors
-    /// [`ModelFileError::Collision`] if its names collide in PDDL, [`ModelFileError::Inconsistent`] if an action refers
-    /// to a cluster that is not in the evidence.
+    /// [`ModelFileError::Collision`] if its names collide in PDDL, [`ModelFileError::Inconsistent`] if an action rests on
+    /// other observations than those of the evidence.
     pub fn to_json(&self) -> Result<String, ModelFileError> {
-        let names = self.pddl_names()?;
-        for action in &self.actions {
-            if action.provenance.sources().iter().any(|s| !self.evidence.clusters.contains_key(&s.cluster)) {
-                let message = "it rests on a cluster that is not in the evidence".to_owned();
+        let model = &self.model;
+        let names = model.pddl_names()?;
+        for action in &model.actions {
+            let known = |s: &Support| self.evidence.clusters.get(&*s.cluster).map(|cluster| cluster.count);
+            if action.provenance.support().iter().any(|s| known(s) != Some(s.observations)) {
+                let message = "it rests on observations that are not in the evidence".to_owned();
                 return Err(ModelFileError::Inconsistent { place: format!("action {}", action.name), message });
             }
         }
@@ -265,13 +277,13 @@ impl ActionModel {
         let clusters: Vec<&ClusterKey> = self.evidence.clusters.keys().collect();
         let file = ModelFile {
             format: MODEL_FORMAT.to_owned(),
-            types: self.hierarchy.edges().map(|(c, p)| (c.clone(), p.clone())).collect(),
-            predicates: self.predicates.clone(),
+            types: model.hierarchy.edges().map(|(c, p)| (c.clone(), p.clone())).collect(),
+            predicates: model.predicates.clone(),
             parse: self.parse.clone(),
-            actor: self.actor.map(|ty| self.hierarchy.name(ty).clone()),
-            constants: self.constants.iter().map(|(n, ty)| (n.clone(), self.hierarchy.name(*ty).clone())).collect(),
-            axioms: self.axioms.iter().map(|a| write_axiom(a, &self.hierarchy)).collect(),
-            actions: self.actions.iter().map(|a| write_action(a, &self.hierarchy, &clusters)).collect(),
+            actor: model.actor.map(|ty| model.hierarchy.name(ty).clone()),
+            constants: model.constants.iter().map(|(n, ty)| (n.clone(), model.hierarchy.name(*ty).clone())).collect(),
+            axioms: model.axioms.iter().map(|a| write_axiom(a, &model.hierarchy)).collect(),
+            actions: model.actions.iter().map(|a| write_action(a, &model.hierarchy, &clusters)).collect(),
             evidence: write_evidence(&self.evidence),
             pddl: PddlFile {
                 types: map(&names.types),
@@ -303,8 +315,8 @@ fn write_axiom(axiom: &Axiom, hierarchy: &Hierarchy) -> AxiomFile {
 }
 
 fn write_action(action: &ActionSchema, hierarchy: &Hierarchy, clusters: &[&ClusterKey]) -> ActionFile {
-    let source = |s: &Source| SourceFile {
-        cluster: clusters.binary_search(&&s.cluster).expect("checked before writing"),
+    let support = |s: &Support| SupportFile {
+        cluster: clusters.binary_search(&&*s.cluster).expect("checked before writing"),
         map: s.map.clone(),
     };
     let replaced = |list: &[Replacement]| {
@@ -312,8 +324,8 @@ fn write_action(action: &ActionSchema, hierarchy: &Hierarchy, clusters: &[&Clust
     };
     let provenance = match &action.provenance {
         Provenance::Given => ProvenanceFile::Given,
-        Provenance::Demonstrated(s) => ProvenanceFile::Demonstrated(source(s)),
-        Provenance::Generalized(sources) => ProvenanceFile::Generalized(sources.iter().map(source).collect()),
+        Provenance::Demonstrated(s) => ProvenanceFile::Demonstrated(support(s)),
+        Provenance::Generalized(s) => ProvenanceFile::Generalized(s.iter().map(support).collect()),
         Provenance::Imagined { from, replaced: r, goal, observations } => ProvenanceFile::Imagined {
             from: from.clone(),
             replaced: replaced(r),
@@ -347,6 +359,8 @@ fn write_action(action: &ActionSchema, hierarchy: &Hierarchy, clusters: &[&Clust
         effects: action.effects.iter().map(effect).collect(),
         cost: action.cost.fixed,
         cost_functions: action.cost.functions.clone(),
+        strict: action.strict,
+        named_by_call: action.named_by_call,
         provenance,
     }
 }

@@ -1,21 +1,24 @@
 //! Reading the model's file: everything that a later step relies on is checked here.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use serde::Deserialize;
 
-use crate::action_model_file::{ActionFile, AxiomFile, EffectFile, LiteralFile, ModelFile, ProvenanceFile, SourceFile};
+use crate::model_file::{
+    ActionFile, AxiomFile, ClusterFile, EffectFile, LiteralFile, MODEL_FORMAT_1, ModelFile, ProvenanceFile, SupportFile,
+};
 use crate::{
-    ActionModel, ActionSchema, Axiom, ClusterKey, Cost, Effect, Evidence, Hierarchy, LiftedAtom, LiftedCall, Literal,
-    MODEL_FORMAT, MOST_PARAMETERS, ModelFileError, Parameter, PreStates, Provenance, Replacement, Source, Symbol, Term,
-    TypeId, check_name, json_message,
+    ActionModel, ActionSchema, Axiom, Cost, Effect, Evidence, Hierarchy, LearnedModel, LiftedAtom, LiftedCall, Literal,
+    MODEL_FORMAT, MOST_PARAMETERS, ModelFileError, Parameter, PreStates, Provenance, Replacement, Support, Symbol,
+    Term, TypeId, check_name, json_message,
 };
 
 /// Preconditions that an action may have.
 pub const MOST_PRECONDITIONS: usize = 40_000;
 
-impl ActionModel {
-    /// Reads a model file.
+impl LearnedModel {
+    /// Reads a model file of this format or the one before.
     ///
     /// # Errors
     /// [`ModelFileError`] if it is not one, or contradicts itself.
@@ -34,17 +37,22 @@ impl ActionModel {
         match head.and_then(|head| head.format) {
             None => return Err(ModelFileError::NoFormat),
             Some(found) if !found.starts_with("model/") => return Err(ModelFileError::NotAModel { found }),
-            Some(found) if found != MODEL_FORMAT => return Err(ModelFileError::Version { found }),
+            Some(found) if found != MODEL_FORMAT && found != MODEL_FORMAT_1 => {
+                return Err(ModelFileError::Version { found });
+            }
             Some(_) => {}
         }
-        let file: ModelFile = serde_json::from_str(text).map_err(json)?;
+        let mut file: ModelFile = serde_json::from_str(text).map_err(json)?;
+        if file.format == MODEL_FORMAT_1 {
+            file.upgrade();
+        }
         let hierarchy = Hierarchy::from_edges(file.types.iter().map(|(c, p)| (c.as_str(), p.as_str())))?;
-        let keys: Vec<ClusterKey> = file.evidence.clusters.iter().map(|c| c.key.clone()).collect();
+        let clusters: Vec<Support> = file.evidence.clusters.iter().map(Support::from).collect();
         let actor = file.actor.map(|name| type_id(&hierarchy, &name, || "\"actor\"".to_owned())).transpose()?;
         let mut names = BTreeSet::new();
         let mut actions = Vec::with_capacity(file.actions.len());
         for action in file.actions {
-            let action = read_action(action, &hierarchy, &keys)?;
+            let action = read_action(action, &hierarchy, &clusters)?;
             if !names.insert(action.name.clone()) {
                 return Err(inconsistent(format!("action {}", action.name), "there is another action of this name"));
             }
@@ -63,15 +71,35 @@ impl ActionModel {
         }
         let axioms = file.axioms.into_iter().map(|axiom| read_axiom(axiom, &hierarchy)).collect::<Result<_, _>>()?;
         let (predicates, parse) = (file.predicates, file.parse);
-        let model = Self { hierarchy, predicates, parse, actor, constants, actions, axioms, evidence };
+        let model = ActionModel { hierarchy, predicates, actor, constants, actions, axioms };
         model.check_names()?;
         model.check_arities()?;
         model.check_axioms()?;
-        model.evidence.check(&model.hierarchy)?;
+        evidence.check(&model.hierarchy)?;
         model.pddl_names()?;
-        Ok(model)
+        Ok(Self { model, parse, evidence })
     }
+}
 
+impl ModelFile {
+    /// Says of the actions what format 1 left to their provenance.
+    fn upgrade(&mut self) {
+        for action in &mut self.actions {
+            let given = matches!(action.provenance, ProvenanceFile::Given);
+            (action.strict, action.named_by_call) = (!given, given);
+        }
+    }
+}
+
+impl From<&ClusterFile> for Support {
+    /// The cluster under its own parameters.
+    fn from(ClusterFile { key, cluster }: &ClusterFile) -> Self {
+        let map = (0..key.types.len() as u32).collect();
+        Self { cluster: Arc::new(key.clone()), map, observations: cluster.count }
+    }
+}
+
+impl ActionModel {
     fn check_names(&self) -> Result<(), ModelFileError> {
         let named = |name: &Symbol, place: &str| {
             check_name(name.as_str()).map_err(|error| inconsistent(place.to_owned(), &error.to_string()))
@@ -224,11 +252,7 @@ fn read_literal(literal: LiteralFile) -> Literal {
     }
 }
 
-fn read_action(
-    file: ActionFile,
-    hierarchy: &Hierarchy,
-    clusters: &[ClusterKey],
-) -> Result<ActionSchema, ModelFileError> {
+fn read_action(file: ActionFile, hierarchy: &Hierarchy, clusters: &[Support]) -> Result<ActionSchema, ModelFileError> {
     let place = || format!("action {}", file.name);
     at_most(file.preconditions.len(), MOST_PRECONDITIONS, "preconditions", place)?;
     let n = file.parameters.len() as u32;
@@ -240,12 +264,13 @@ fn read_action(
         .iter()
         .map(|arg| read_term(arg).map_err(|message| inconsistent(place(), &message)))
         .collect::<Result<Vec<_>, _>>()?;
-    let source = |s: SourceFile| match clusters.get(s.cluster) {
-        Some(key) if key.types.len() == s.map.len() && s.map.iter().all(|&p| p < n) => {
-            Ok(Source { cluster: key.clone(), map: s.map })
+    let support = |s: SupportFile| match clusters.get(s.cluster) {
+        Some(known) if known.map.len() == s.map.len() && s.map.iter().all(|&p| p < n) => {
+            Ok(Support { map: s.map, ..known.clone() })
         }
         Some(_) => {
-            Err(inconsistent(place(), "a source does not map each of its cluster's parameters to one of the action's"))
+            let message = "what supports it does not map each of its cluster's parameters to one of the action's";
+            Err(inconsistent(place(), message))
         }
         None => Err(inconsistent(place(), &format!("there is no cluster {} in the evidence", s.cluster))),
     };
@@ -256,8 +281,10 @@ fn read_action(
     };
     let provenance = match file.provenance {
         ProvenanceFile::Given => Provenance::Given,
-        ProvenanceFile::Demonstrated(s) => Provenance::Demonstrated(source(s)?),
-        ProvenanceFile::Generalized(s) => Provenance::Generalized(s.into_iter().map(source).collect::<Result<_, _>>()?),
+        ProvenanceFile::Demonstrated(s) => Provenance::Demonstrated(support(s)?),
+        ProvenanceFile::Generalized(s) => {
+            Provenance::Generalized(s.into_iter().map(support).collect::<Result<_, _>>()?)
+        }
         ProvenanceFile::Imagined { from, replaced: r, goal, observations } => {
             Provenance::Imagined { from, replaced: replaced(r)?, goal, observations }
         }
@@ -289,6 +316,8 @@ fn read_action(
         distinct: file.distinct,
         effects,
         cost: Cost { fixed: file.cost, functions: file.cost_functions },
+        strict: file.strict,
+        named_by_call: file.named_by_call,
         provenance,
     })
 }
