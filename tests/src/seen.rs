@@ -38,7 +38,7 @@ pub struct Seen {
 
 impl Seen {
     pub fn state(&self, atoms: &BTreeSet<GroundAtom>) -> State {
-        State { objects: self.objects.clone(), atoms: atoms.clone(), unknown: BTreeSet::new() }
+        State { objects: self.objects.clone(), atoms: atoms.clone(), ..State::default() }
     }
 
     pub fn evidence(&self) -> Evidence {

@@ -3,7 +3,9 @@
 use std::collections::BTreeSet;
 
 use typelift::learn::observe;
-use typelift::model::{Evidence, GroundAtom, GroundCall, Hierarchy, MOST_PARAMETERS, State, Symbol, Unexplained};
+use typelift::model::{
+    Evidence, GroundAtom, GroundCall, Hierarchy, MOST_PARAMETERS, Pattern, State, Symbol, Unexplained, Unknown,
+};
 use typelift::world::{TraceAction, Transition};
 
 /// `look`, after which `n` entities called by `name` are seen; before, what `before` says of them holds.
@@ -81,9 +83,10 @@ fn what_depends_on_the_unknown_is_reported() {
     let (_, mut state) = look(2, forwards, |_| Vec::new());
     let mut after = state.clone();
     after.atoms.insert(GroundAtom::parse("seen(o0000)").expect("an atom"));
-    state.unknown.insert(GroundAtom::parse("open(o0001)").expect("an atom"));
+    let unknown = |atom: &str| Pattern::parse(atom).expect("a pattern");
+    state.unknown = Unknown::Matching([unknown("open(o0001)")].into());
     assert_eq!(observed(&state, &after).clusters.len(), 1, "the unknown one has no part in it");
-    state.unknown.insert(GroundAtom::parse("open(o0000)").expect("an atom"));
+    state.unknown = Unknown::Matching([unknown("open(o0001)"), unknown("open(o0000)")].into());
     let evidence = observed(&state, &after);
     assert!(evidence.clusters.is_empty());
     assert_eq!(evidence.unexplained.keys().collect::<Vec<_>>(), [&Unexplained::PartlyObserved]);

@@ -270,7 +270,7 @@ proptest! {
             let mut after = before.clone();
             after.insert(GroundAtom::new("done", it.clone()));
             let objects: BTreeMap<Symbol, TypeId> = [(it[0].clone(), h.id("cup").expect("a type"))].into();
-            let state = |atoms| State { objects: objects.clone(), atoms, unknown: BTreeSet::new() };
+            let state = |atoms| State { objects: objects.clone(), atoms, ..State::default() };
             let call = GroundCall { name: Symbol::new("do"), args: it };
             let action = TraceAction { call, executed: None, reason: None, time: None };
             let (before, after) = (state(before), state(after));

@@ -139,7 +139,7 @@ fn renamed(task: &Task, multiplier: usize) -> Task {
     let init = State {
         objects: task.init.objects.iter().map(|(name, ty)| (names[name].clone(), *ty)).collect(),
         atoms: task.init.atoms.iter().map(atom).collect(),
-        unknown: BTreeSet::new(),
+        ..State::default()
     };
     Task::new(init, task.goal.required.iter().map(atom).collect::<Vec<_>>())
 }

@@ -45,7 +45,7 @@ impl StepResult {
 /// given actions only what would change is expected. An atom that is unknown before or after counts neither way.
 pub fn compare(action: &GroundAction, before: &State, after: &State, strict_effects: bool) -> StepResult {
     let wanted = |atom: &&GroundAtom, adds: bool| {
-        let known = !before.unknown.contains(*atom) && !after.unknown.contains(*atom);
+        let known = !before.is_unknown(atom) && !after.is_unknown(atom);
         known && (strict_effects || before.holds(atom) != adds)
     };
     let added = |atom: &GroundAtom| !before.holds(atom) && after.holds(atom);
@@ -55,7 +55,7 @@ pub fn compare(action: &GroundAction, before: &State, after: &State, strict_effe
     let observed: Vec<bool> = adds.into_iter().chain(deletes).collect();
     if observed.iter().all(|&seen| seen) {
         StepResult::AsExpected
-    } else if before.objects == after.objects && before.atoms == after.atoms {
+    } else if before.objects == after.objects && before.added(after).chain(before.deleted(after)).next().is_none() {
         StepResult::NothingChanged
     } else if observed.iter().any(|&seen| seen) {
         StepResult::Partly

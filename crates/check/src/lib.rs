@@ -17,7 +17,9 @@ mod validate;
 pub use validate::{Valid, validate};
 
 use thiserror::Error;
-use typelift_model::{ActionModel, GroundAction, GroundAtom, InstantiateError, Plan, State, Step, Symbol, Task};
+use typelift_model::{
+    ActionModel, GroundAction, GroundAtom, InstantiateError, Plan, State, Step, Symbol, Task, Unknown,
+};
 
 /// Why a plan is not valid. Steps are counted from 1.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -94,12 +96,13 @@ pub enum Invalid {
     },
 }
 
-/// Replays the plan from the task's initial state and returns the final state, in which the goal holds.
+/// Replays the plan from the task's initial state and returns the final state, in which the goal holds. What is unknown
+/// is taken for false.
 ///
 /// # Errors
 /// [`Invalid`] names the first step that cannot be taken, or the first part of the goal that is missed.
 pub fn check(model: &ActionModel, task: &Task, plan: &Plan) -> Result<State, Invalid> {
-    let mut state = model.with_derived(&task.init);
+    let mut state = State { unknown: Unknown::default(), ..model.with_derived(&task.init) };
     for (i, step) in plan.steps.iter().enumerate() {
         let action = resolve(model, task, &state, i + 1, step)?;
         if let Some((atom, positive)) = action.unmet(&state).next() {
@@ -147,10 +150,8 @@ fn resolve(
 fn advance(model: &ActionModel, action: &GroundAction, state: &mut State) {
     for atom in &action.deletes {
         state.atoms.remove(atom);
-        state.unknown.remove(atom);
     }
     for atom in &action.adds {
-        state.unknown.remove(atom);
         state.atoms.insert(atom.clone());
     }
     if !model.axioms.is_empty() {

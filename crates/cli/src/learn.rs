@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use serde::Serialize;
 use typelift::learn::{self, Actor, LearnError, Options, learn_dataset};
 use typelift::model::{ClusterKey, Evidence, LearnedModel, LiftedAtom, ParseConfig, Symbol, Unexplained};
-use typelift::world::{Dataset, ObjectTypes, read_dataset, read_hierarchy, write_file};
+use typelift::world::{Dataset, ObjectTypes, TrajectoryContext, Unlisted, read_dataset, read_hierarchy, write_file};
 
 use crate::exit::Exit;
 use crate::failure::{Failure, or_one_of};
@@ -36,6 +36,12 @@ pub(crate) struct Learn {
     /// Where trajectories find the types of their objects: JSON {"object": "type"}, or a PDDL (:objects …)
     #[arg(long, value_name = "FILE")]
     objects: Option<PathBuf>,
+    /// In trajectories, what is not listed is false
+    #[arg(long, conflicts_with = "open")]
+    closed: bool,
+    /// In trajectories, what is listed neither as true nor as false is unknown [default: if any state lists a (not …)]
+    #[arg(long)]
+    open: bool,
     /// Attributes and relations that give no atoms: NAME, or TYPE.NAME
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     ignore: Vec<String>,
@@ -80,7 +86,13 @@ impl Learn {
             (None, Some(file)) => ObjectTypes::from_file(file)?,
             (None, None) => ObjectTypes::default(),
         };
-        let dataset = read_dataset(&self.traces, hierarchy, ParseConfig { ignore }, &types)?;
+        let unlisted = match (self.closed, self.open) {
+            (true, _) => Unlisted::False,
+            (_, true) => Unlisted::Unknown,
+            _ => Unlisted::AsListed,
+        };
+        let context = TrajectoryContext { types, unlisted };
+        let dataset = read_dataset(&self.traces, hierarchy, ParseConfig { ignore }, &context)?;
         let actor = match self.actor.as_deref() {
             None => None,
             Some("none") => Some(Actor::Nobody),

@@ -144,7 +144,7 @@ fn unknown_atoms_are_not_compared() {
     let symbolic = |atoms: &BTreeSet<_>| Scene::Symbolic {
         objects: std::collections::BTreeMap::clone(&objects),
         atoms: atoms.clone(),
-        unknown: hidden.clone(),
+        unknown: hidden.iter().cloned().map(Into::into).collect(),
     };
     assert_eq!(replay(first, [(call.clone(), symbolic(&atoms))]).unwrap().difference, None);
     let gone = atoms.pop_first().unwrap();

@@ -19,7 +19,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use typelift_model::{
     ClusterKey, Evidence, GroundAtom, Hierarchy, LiftedAtom, MOST_PARAMETERS, NegativeKey, Symbol, Term, TypeId,
-    Unexplained,
+    Unexplained, Unknown,
 };
 use typelift_world::Transition;
 
@@ -53,7 +53,11 @@ pub fn observe(evidence: &mut Evidence, transition: &Transition<'_>, hierarchy: 
 
     let index: BTreeMap<&Symbol, u32> = objects.iter().copied().zip(0..).collect();
     let lift = |atom: &GroundAtom| LiftedAtom::lift(atom, |object| index.get(object).copied());
-    if before.unknown.iter().chain(&after.unknown).any(|atom| lift(atom).is_some()) {
+    let hides = |unknown: &Unknown<Symbol>| match unknown {
+        Unknown::Matching(patterns) => patterns.iter().any(|p| p.names().all(|name| index.contains_key(name))),
+        Unknown::AllBut(_) => true,
+    };
+    if hides(&before.unknown) || hides(&after.unknown) {
         evidence.add_unexplained(Unexplained::PartlyObserved, witness);
         return;
     }

@@ -97,7 +97,7 @@ impl<T> Atom<T> {
 }
 
 /// Splits `predicate(a,b)` into its names. White space around names is dropped; `p` and `p()` have no arguments.
-fn split(text: &str) -> Result<(&str, Vec<&str>), AtomTextError> {
+pub(crate) fn split(text: &str) -> Result<(&str, Vec<&str>), AtomTextError> {
     let form = || AtomTextError::Form { text: text.to_owned() };
     let trimmed = text.trim();
     let Some((predicate, rest)) = trimmed.split_once('(') else {

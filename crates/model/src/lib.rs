@@ -35,6 +35,7 @@ mod strict;
 mod symbol;
 mod task;
 mod unify;
+mod unknown;
 
 pub use action::{ActionSchema, Cost, Effect, GroundCall, LiftedCall, Literal, Parameter};
 pub use action_model::{ActionModel, ModelPddlNames, UniqueNames, describe_replacements, schema_name};
@@ -63,6 +64,7 @@ pub use strict::strict;
 pub use symbol::{Symbol, SymbolPool};
 pub use task::Task;
 pub use unify::{effect_bijections, is_bijection};
+pub use unknown::{Pattern, Slot, Unknown};
 
 /// The hash map of all crates: fast, and never iterated into a result.
 pub type HashMap<K, V> = rustc_hash::FxHashMap<K, V>;

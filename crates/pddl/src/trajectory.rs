@@ -2,8 +2,10 @@
 //!
 //! AMLGym writes `(:trajectory (:state (on a b) …) (:action (pick a)) (:state …) …)`, SAM
 //! `((:init (on a b) …) (operator: (pick a)) (:state …) …)`, where each operator may be followed by
-//! `(:transition_status (success))` or `(failure)`. Either form of each entry is accepted in both. In a state,
-//! `(not (p a))` says what is false anyway, and numeric fluents `(= (f a) 3)` are passed over.
+//! `(:transition_status (success))` or `(failure)`. Either form of each entry is accepted in both. A state lists what
+//! holds and, as `(not (p a))`, what does not; numeric fluents `(= (f a) 3)` are passed over.
+
+use std::collections::BTreeSet;
 
 use typelift_model::{GroundAtom, GroundCall, Symbol, SymbolPool, check_name};
 
@@ -14,6 +16,8 @@ use crate::{Document, PddlError, Sexpr, Span};
 pub struct TrajectoryState {
     /// The atoms that hold, in lower case, each with its place.
     pub atoms: Vec<(GroundAtom, Span)>,
+    /// The atoms that are said not to hold, in lower case, each with its place.
+    pub negated: Vec<(GroundAtom, Span)>,
     /// Where the state is.
     pub span: Span,
 }
@@ -93,21 +97,26 @@ impl Trajectory {
         if entry.has_head(":init") && !self.states.is_empty() {
             return Err(entry.error("`:init` can only be the first state"));
         }
-        let mut atoms = Vec::new();
+        let (mut atoms, mut negated) = (Vec::new(), Vec::new());
         for item in entry.children().skip(1) {
             if item.has_head("=") {
                 continue;
             }
             if item.has_head("not") {
                 match (item.children().nth(1), item.children().nth(2)) {
-                    (Some(negated), None) => read_atom(negated, names)?,
+                    (Some(atom), None) => negated.push((read_atom(atom, names)?, item.span())),
                     _ => return Err(item.error("`not` takes one atom")),
                 };
                 continue;
             }
             atoms.push((read_atom(item, names)?, item.span()));
         }
-        self.states.push(TrajectoryState { atoms, span: entry.span() });
+        let held: BTreeSet<&GroundAtom> = atoms.iter().map(|(atom, _)| atom).collect();
+        if let Some((atom, span)) = negated.iter().find(|(atom, _)| held.contains(atom)) {
+            let text = entry.document_text();
+            return Err(PddlError::new(text, *span, format!("{atom} is listed both as true and as false")));
+        }
+        self.states.push(TrajectoryState { atoms, negated, span: entry.span() });
         Ok(())
     }
 
@@ -170,7 +179,10 @@ mod tests {
 
     fn shown(text: &str) -> String {
         let trajectory = read_trajectory(text).expect(text);
-        let state = |s: &TrajectoryState| s.atoms.iter().map(|(a, _)| a.to_string()).collect::<Vec<_>>().join(" ");
+        let state = |s: &TrajectoryState| {
+            let held = s.atoms.iter().map(|(a, _)| a.to_string());
+            held.chain(s.negated.iter().map(|(a, _)| format!("!{a}"))).collect::<Vec<_>>().join(" ")
+        };
         let mut out = state(&trajectory.states[0]);
         for (action, after) in trajectory.actions.iter().zip(&trajectory.states[1..]) {
             let status = action.executed.map(|e| format!("={e}")).unwrap_or_default();
@@ -185,7 +197,7 @@ mod tests {
         assert_eq!(shown(amlgym), "clear(b) handempty() | pick_up(b) | holding(b)");
         let sam = "((:init (clear b) (moving ) (= (weight b) 2.0))\n(operator: (pick b ))\n(:transition_status (failure))\n\
                    (:state (clear b) (not (holding b)))\n(operator: (nop))\n(:transition_status (success))\n(:state))";
-        assert_eq!(shown(sam), "clear(b) moving() | pick(b)=false | clear(b) | nop()=true | ");
+        assert_eq!(shown(sam), "clear(b) moving() | pick(b)=false | clear(b) !holding(b) | nop()=true | ");
         assert_eq!(shown("((:state (p)))"), "p()");
     }
 
@@ -218,6 +230,7 @@ mod tests {
                 "line 1, column 13: `?a` cannot be a name: it starts with `?`, which marks a parameter",
             ),
             ("((:init (not (p) (q))))", "line 1, column 9: `not` takes one atom"),
+            ("((:init (p a) (not (p A))))", "line 1, column 15: p(a) is listed both as true and as false"),
             (
                 "((:init) (:transition_status (success)))",
                 "line 1, column 10: `:transition_status` can only follow an action",

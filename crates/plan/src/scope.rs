@@ -121,7 +121,7 @@ impl Scopes {
         let init = State {
             objects: kept.iter().map(|&object| (object.clone(), task.init.objects[object])).collect(),
             atoms: task.init.atoms.iter().filter(known).cloned().collect(),
-            unknown: task.init.unknown.iter().filter(known).cloned().collect(),
+            unknown: task.init.unknown.clone(),
         };
         let values = task.values.iter().filter(|(atom, _)| known(atom)).map(|(atom, value)| (atom.clone(), *value));
         Cow::Owned(Task { init, goal: task.goal.clone(), values: values.collect() })

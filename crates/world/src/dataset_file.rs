@@ -11,13 +11,13 @@ use crate::object_types::files_of;
 use crate::text_file::text_from;
 use crate::trace_file::trace_from;
 use crate::trajectory_file::trajectory_from;
-use crate::{Dataset, FileError, ObjectTypes, Parser, Trace, TraceReader};
+use crate::{Dataset, FileError, Parser, Trace, TraceReader, TrajectoryContext};
 
 /// Reads a trace or a trajectory, which of the two being told from its first character.
 ///
 /// # Errors
 /// [`FileError`] as for [`read_trace`](crate::read_trace) and [`read_trajectory`](crate::read_trajectory).
-pub fn read_any_trace(path: &Path, types: &ObjectTypes, parser: &mut Parser) -> Result<Trace, FileError> {
+pub fn read_any_trace(path: &Path, context: &TrajectoryContext, parser: &mut Parser) -> Result<Trace, FileError> {
     let io = |e: std::io::Error| FileError::from_io(path, &e);
     let mut input = BufReader::new(File::open(path).map_err(io)?);
     // The file is opened once: it may be a pipe.
@@ -42,7 +42,7 @@ pub fn read_any_trace(path: &Path, types: &ObjectTypes, parser: &mut Parser) -> 
     if is_trajectory {
         let mut bytes = Vec::new();
         input.read_to_end(&mut bytes).map_err(io)?;
-        trajectory_from(path, &text_from(path, bytes)?, types, parser)
+        trajectory_from(path, &text_from(path, bytes)?, context, parser)
     } else {
         trace_from(path, TraceReader::new(path, input)?, parser)
     }
@@ -57,13 +57,13 @@ pub fn read_dataset(
     paths: &[PathBuf],
     hierarchy: Hierarchy,
     parse: ParseConfig,
-    types: &ObjectTypes,
+    context: &TrajectoryContext,
 ) -> Result<Dataset, FileError> {
     let mut parser = Parser::new(hierarchy, parse);
     let mut traces = Vec::new();
     for path in paths {
         if !path.is_dir() {
-            traces.push(read_any_trace(path, types, &mut parser)?);
+            traces.push(read_any_trace(path, context, &mut parser)?);
             continue;
         }
         let endings = [".jsonl", ".trajectory", "_traj"];
@@ -73,7 +73,7 @@ pub fn read_dataset(
             return Err(FileError::new(path, what));
         }
         for file in files {
-            traces.push(read_any_trace(&file, types, &mut parser)?);
+            traces.push(read_any_trace(&file, context, &mut parser)?);
         }
     }
     if traces.is_empty() {
@@ -85,6 +85,7 @@ pub fn read_dataset(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ObjectTypes;
 
     const TRACE: &str = concat!(
         "{\"format\":\"trace/1\",\"task\":\"t\",\"goal\":[]}\n",
@@ -98,11 +99,11 @@ mod tests {
         }
         let list = folder.path().join("objects");
         crate::write_file(&list, b"(:objects a b - block)").expect("written");
-        let types = ObjectTypes::from_file(&list).expect("types");
+        let context = ObjectTypes::from_file(&list).expect("types").into();
         let hierarchy = Hierarchy::from_edges([("block", "object")]).expect("a tree");
         let paths: Vec<PathBuf> = paths.iter().map(|path| folder.path().join(path)).collect();
         let shown = format!("{}/", folder.path().display());
-        read_dataset(&paths, hierarchy, ParseConfig::default(), &types).map_err(|e| e.to_string().replace(&shown, ""))
+        read_dataset(&paths, hierarchy, ParseConfig::default(), &context).map_err(|e| e.to_string().replace(&shown, ""))
     }
 
     #[test]

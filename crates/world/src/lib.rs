@@ -36,4 +36,4 @@ pub use task_file::{TASK_FORMAT, TaskError, TaskFile, check_goal, read_task, wri
 pub use text_file::{read_text, write_file};
 pub use trace_file::{TraceHeader, TraceItem, TraceReader, read_trace};
 pub use trace_line::{TRACE_FORMAT, TraceLine, write_trace};
-pub use trajectory_file::read_trajectory;
+pub use trajectory_file::{TrajectoryContext, Unlisted, read_trajectory};

@@ -12,9 +12,10 @@
 //! predicate name came from, and refuses a second source of one name.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
 
 use thiserror::Error;
-use typelift_model::{GroundAtom, Hierarchy, ParseConfig, State, Symbol, TypeId, check_name};
+use typelift_model::{Atom, GroundAtom, Hierarchy, ParseConfig, State, Symbol, TypeId, Unknown, check_name};
 
 use crate::{Entity, Relation, Scene, Snapshot, Value};
 
@@ -162,25 +163,60 @@ impl Parser {
         match scene {
             Scene::Snapshot(snapshot) => self.parse_snapshot(snapshot),
             Scene::Symbolic { objects, atoms, unknown } => {
-                let mut state = State::default();
-                for (name, ty) in objects {
-                    self.add_object(&mut state, name, ty)?;
-                }
-                for atom in atoms.iter().chain(unknown) {
-                    if let Some(target) = atom.args.iter().find(|arg| !state.objects.contains_key(*arg)) {
-                        let kind = ParseErrorKind::UnknownEntity { what: atom.to_string(), target: target.clone() };
-                        return Err(ParseError { entity: None, kind });
-                    }
-                    self.note(None, SourceKind::Symbolic, &atom.predicate, &atom.predicate, atom.arity())?;
-                }
-                if let Some(both) = atoms.intersection(unknown).next() {
-                    return Err(ParseError { entity: None, kind: ParseErrorKind::TrueAndUnknown(both.clone()) });
-                }
-                state.atoms = atoms.clone();
-                state.unknown = unknown.clone();
-                Ok(state)
+                self.parse_symbolic(objects, atoms, Unknown::Matching(unknown.clone()))
             }
         }
+    }
+
+    /// The state of these objects and atoms, of which the others are known as far as `unknown` says.
+    ///
+    /// # Errors
+    /// [`ParseError`] with the entity concerned.
+    pub fn parse_symbolic(
+        &mut self,
+        objects: &BTreeMap<Symbol, Symbol>,
+        atoms: &BTreeSet<GroundAtom>,
+        unknown: Unknown<Symbol>,
+    ) -> Result<State, ParseError> {
+        let mut state = State::default();
+        for (name, ty) in objects {
+            self.add_object(&mut state, name, ty)?;
+        }
+        for atom in atoms {
+            self.note_symbolic(&state, atom, atom.args.iter())?;
+        }
+        match &unknown {
+            Unknown::Matching(patterns) => {
+                for pattern in patterns {
+                    self.note_symbolic(&state, pattern, pattern.names())?;
+                    if let Some(both) = atoms.iter().find(|atom| pattern.is_of(atom)) {
+                        return Err(ParseError { entity: None, kind: ParseErrorKind::TrueAndUnknown(both.clone()) });
+                    }
+                }
+            }
+            Unknown::AllBut(known) => {
+                for atom in known {
+                    self.note_symbolic(&state, atom, atom.args.iter())?;
+                }
+            }
+        }
+        state.atoms = atoms.clone();
+        state.unknown = unknown;
+        Ok(state)
+    }
+
+    /// Notes the predicate of an atom, or a pattern, of a symbolic state, which is over these objects.
+    fn note_symbolic<'a, T: fmt::Display>(
+        &mut self,
+        state: &State,
+        atom: &Atom<T>,
+        mut objects: impl Iterator<Item = &'a Symbol>,
+    ) -> Result<(), ParseError> {
+        if let Some(target) = objects.find(|name| !state.objects.contains_key(*name)) {
+            let kind = ParseErrorKind::UnknownEntity { what: atom.to_string(), target: target.clone() };
+            return Err(ParseError { entity: None, kind });
+        }
+        self.note(None, SourceKind::Symbolic, &atom.predicate, &atom.predicate, atom.arity())
     }
 
     fn parse_snapshot(&mut self, snapshot: &Snapshot) -> Result<State, ParseError> {
@@ -344,6 +380,26 @@ mod tests {
             let mut parser = parser();
             parser.config.ignore.insert(Symbol::new(rule));
             assert_eq!(parser.parse(&scene(json)).expect("a state").atoms.len(), left, "{rule}");
+        }
+    }
+
+    #[test]
+    fn what_is_unknown_is_over_the_entities() {
+        let symbolic = |atoms: &str, unknown: &str| {
+            let objects = r#"{"a":"agent","p":"plate"}"#;
+            let text = format!(r#"{{"objects":{objects},"atoms":[{atoms}],"unknown":[{unknown}]}}"#);
+            parser().parse(&scene(&text)).map_err(|error| error.to_string())
+        };
+        let state = symbolic(r#""holding(a,p)""#, r#""holding(a,*)""#).expect("what is listed is known");
+        let unknown = |atom| state.is_unknown(&GroundAtom::parse(atom).expect("an atom"));
+        assert_eq!(["holding(a,p)", "holding(a,a)", "holding(p,a)"].map(unknown), [false, true, false]);
+        for (atoms, unknown, message) in [
+            ("", r#""holding(a,q)""#, "holding(a,q) mentions `q`, which is not among the entities"),
+            ("", r#""holding(b,*)""#, "holding(b,*) mentions `b`, which is not among the entities"),
+            (r#""clean(p)""#, r#""clean(p)""#, "clean(p) is listed both as true and as unknown"),
+            (r#""clean(p)""#, r#""clean(*,*)""#, "the predicate `clean` is used with 1 and with 2 arguments"),
+        ] {
+            assert_eq!(symbolic(atoms, unknown).expect_err(message), message);
         }
     }
 

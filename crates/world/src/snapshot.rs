@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
-use typelift_model::{GroundAtom, Symbol};
+use typelift_model::{GroundAtom, Pattern, Symbol};
 
 use crate::json::distinct_map;
 
@@ -83,8 +83,9 @@ pub enum Scene {
         /// The atoms that hold.
         #[serde(default)]
         atoms: BTreeSet<GroundAtom>,
-        /// Atoms of which it is not known whether they hold.
+        /// Atoms of which it is not known whether they hold; `*` stands for any entity: `holding_holds(agent_1,*)`.
+        /// What is listed in `atoms` is known.
         #[serde(default)]
-        unknown: BTreeSet<GroundAtom>,
+        unknown: BTreeSet<Pattern<Symbol>>,
     },
 }

@@ -269,7 +269,7 @@ fn share(state: &State, names: &mut SymbolPool) -> State {
         };
         set.iter().map(atom).collect()
     };
-    let (true_atoms, unknown) = (atoms(&state.atoms), atoms(&state.unknown));
+    let held = atoms(&state.atoms);
     let objects = state.objects.iter().map(|(name, ty)| (names.symbol(name.as_str()), *ty)).collect();
-    State { objects, atoms: true_atoms, unknown }
+    State { objects, atoms: held, unknown: state.unknown.clone() }
 }

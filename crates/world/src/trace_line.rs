@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Write};
 
 use serde::{Deserialize, Serialize};
-use typelift_model::{GroundAtom, GroundCall, Symbol};
+use typelift_model::{GroundAtom, GroundCall, Pattern, Symbol};
 
 use crate::entity_line::EntityLine;
 use crate::{Scene, Snapshot, TraceAction, TraceHeader, json};
@@ -137,7 +137,7 @@ pub(crate) struct SceneLine {
     #[serde(default)]
     atoms: BTreeSet<GroundAtom>,
     #[serde(default)]
-    unknown: BTreeSet<GroundAtom>,
+    unknown: BTreeSet<Pattern<Symbol>>,
 }
 
 #[derive(Deserialize)]

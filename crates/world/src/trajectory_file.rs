@@ -1,38 +1,73 @@
 //! Trajectory files of the field as traces. Their objects get their types from elsewhere.
+//!
+//! A trajectory without `(not …)` has closed states: what is not listed is false. If any of its states lists something as
+//! false, all of them are open: what is listed neither way is unknown. [`Unlisted`] says otherwise.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::path::Path;
 
-use typelift_model::{GroundAtom, Hierarchy, Symbol, did_you_mean};
-use typelift_pddl::{PddlError, Span, Trajectory};
+use typelift_model::{GroundAtom, Hierarchy, Symbol, Unknown, did_you_mean};
+use typelift_pddl::{PddlError, Span, Trajectory, TrajectoryState};
 
 use crate::trace_file::file_name;
-use crate::{FileError, ObjectTypes, ParseError, ParseErrorKind, Parser, Scene, Trace, TraceAction, read_text};
+use crate::{FileError, ObjectTypes, ParseError, ParseErrorKind, Parser, Trace, TraceAction, read_text};
+
+/// What trajectory files do not say themselves.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct TrajectoryContext {
+    /// The types of their objects.
+    pub types: ObjectTypes,
+    /// What is not listed.
+    pub unlisted: Unlisted,
+}
+
+impl From<ObjectTypes> for TrajectoryContext {
+    fn from(types: ObjectTypes) -> Self {
+        Self { types, ..Self::default() }
+    }
+}
+
+/// What the states of trajectories say of an atom that they do not list.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Unlisted {
+    /// That it is unknown, if any state of the trajectory lists an atom as false; else, that it is false.
+    #[default]
+    AsListed,
+    /// That it is false.
+    False,
+    /// Nothing.
+    Unknown,
+}
 
 /// Reads a trajectory file of either dialect. Every state has the objects that the trajectory mentions anywhere.
 ///
 /// # Errors
 /// [`FileError`] if it is malformed, or an object's type is not given or not in the hierarchy.
-pub fn read_trajectory(path: &Path, types: &ObjectTypes, parser: &mut Parser) -> Result<Trace, FileError> {
-    trajectory_from(path, &read_text(path)?, types, parser)
+pub fn read_trajectory(path: &Path, context: &TrajectoryContext, parser: &mut Parser) -> Result<Trace, FileError> {
+    trajectory_from(path, &read_text(path)?, context, parser)
 }
 
 pub(crate) fn trajectory_from(
     path: &Path,
     text: &str,
-    types: &ObjectTypes,
+    context: &TrajectoryContext,
     parser: &mut Parser,
 ) -> Result<Trace, FileError> {
     let located = |error: PddlError| FileError::from_pddl(path, text, error);
     let trajectory = typelift_pddl::read_trajectory(text).map_err(located)?;
-    let given = types.of_trajectory(path)?;
+    let given = context.types.of_trajectory(path)?;
     let objects = typed_objects(text, &trajectory, &given, parser.hierarchy()).map_err(located)?;
     let mut trace = Trace { file: file_name(path), ..Trace::default() };
+    let open = match context.unlisted {
+        Unlisted::AsListed => trajectory.states.iter().any(|state| !state.negated.is_empty()),
+        Unlisted::False => false,
+        Unlisted::Unknown => true,
+    };
     for state in &trajectory.states {
-        let atoms: BTreeSet<GroundAtom> = state.atoms.iter().map(|(atom, _)| atom.clone()).collect();
-        let scene = Scene::Symbolic { objects: objects.clone(), atoms, unknown: BTreeSet::new() };
-        let state = parser.parse(&scene).map_err(|error| {
-            let span = offending_span(&error, &state.atoms).unwrap_or(state.span);
+        let atoms = |listed: &[(GroundAtom, Span)]| listed.iter().map(|(atom, _)| atom.clone()).collect();
+        let unknown = if open { Unknown::AllBut(atoms(&state.negated)) } else { Unknown::default() };
+        let state = parser.parse_symbolic(&objects, &atoms(&state.atoms), unknown).map_err(|error| {
+            let span = offending_span(&error, state).unwrap_or(state.span);
             located(PddlError::new(text, span, error.to_string()))
         })?;
         trace.states.push(state);
@@ -45,11 +80,12 @@ pub(crate) fn trajectory_from(
     Ok(trace)
 }
 
-fn offending_span(error: &ParseError, atoms: &[(GroundAtom, Span)]) -> Option<Span> {
+fn offending_span(error: &ParseError, state: &TrajectoryState) -> Option<Span> {
     match &error.kind {
         ParseErrorKind::TwoArities { predicate, second, .. } => {
-            let mut found = atoms.iter().filter(|(atom, _)| atom.predicate == *predicate && atom.arity() == *second);
-            found.next().map(|(_, span)| *span)
+            let mut listed = state.atoms.iter().chain(&state.negated);
+            let found = listed.find(|(atom, _)| atom.predicate == *predicate && atom.arity() == *second);
+            found.map(|(_, span)| *span)
         }
         _ => None,
     }
@@ -66,7 +102,8 @@ fn typed_objects(
     for ty in hierarchy.types() {
         spelling.entry(hierarchy.name(ty).as_str().to_ascii_lowercase()).or_insert_with(|| hierarchy.name(ty));
     }
-    let in_states = trajectory.states.iter().flat_map(|s| &s.atoms).map(|(atom, span)| (&atom.args, *span));
+    let in_states =
+        trajectory.states.iter().flat_map(|s| s.atoms.iter().chain(&s.negated)).map(|(atom, span)| (&atom.args, *span));
     let in_actions = trajectory.actions.iter().map(|a| (&a.call.args, a.span));
     let mut objects = BTreeMap::new();
     for (args, span) in in_states.chain(in_actions) {
@@ -103,15 +140,39 @@ mod tests {
 
     use super::*;
 
-    fn read(types: &str, trajectory: &str) -> Result<Trace, FileError> {
+    fn read_as(unlisted: Unlisted, types: &str, trajectory: &str) -> Result<Trace, FileError> {
         let folder = tempfile::tempdir().expect("a folder");
         let (list, path) = (folder.path().join("objects"), folder.path().join("a.trajectory"));
         crate::write_file(&list, types.as_bytes()).expect("written");
         crate::write_file(&path, trajectory.as_bytes()).expect("written");
         let hierarchy = Hierarchy::from_edges([("Block", "object"), ("Arm", "object")]).expect("a tree");
-        let types = ObjectTypes::from_file(&list).expect("types");
+        let context = TrajectoryContext { types: ObjectTypes::from_file(&list).expect("types"), unlisted };
         let mut parser = Parser::new(hierarchy, ParseConfig::default());
-        read_trajectory(&path, &types, &mut parser).map_err(|e| FileError { file: "a.trajectory".to_owned(), ..e })
+        read_trajectory(&path, &context, &mut parser).map_err(|e| FileError { file: "a.trajectory".to_owned(), ..e })
+    }
+
+    fn read(types: &str, trajectory: &str) -> Result<Trace, FileError> {
+        read_as(Unlisted::AsListed, types, trajectory)
+    }
+
+    #[test]
+    fn one_negation_opens_every_state() {
+        let (plain, open) = (
+            "((:init (p a)) (operator: (do a)) (:state (q a)))",
+            "((:init (p a) (not (q a))) (operator: (do a)) (:state (q a)))",
+        );
+        let known = |unlisted, text| {
+            let trace = read_as(unlisted, "(:objects a - block)", text).expect("a trace");
+            let unknown = |atom: &str| {
+                trace.states.iter().map(|s| s.is_unknown(&GroundAtom::parse(atom).expect(atom))).collect::<Vec<_>>()
+            };
+            [unknown("p(a)"), unknown("q(a)"), unknown("r(a)")]
+        };
+        let nothing = vec![vec![false, false]; 3];
+        assert_eq!(known(Unlisted::AsListed, plain).to_vec(), nothing);
+        assert_eq!(known(Unlisted::False, open).to_vec(), nothing);
+        assert_eq!(known(Unlisted::AsListed, open), [vec![false, true], vec![false, false], vec![true, true]]);
+        assert_eq!(known(Unlisted::Unknown, plain), [vec![false, true], vec![true, false], vec![true, true]]);
     }
 
     #[test]

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use proptest::prelude::*;
-use typelift_model::{GroundAtom, GroundCall, Hierarchy, ParseConfig, Symbol};
+use typelift_model::{GroundAtom, GroundCall, Hierarchy, ParseConfig, Pattern, Slot, Symbol};
 use typelift_world::{
     Entity, FileError, Parser, Relation, Scene, Snapshot, Trace, TraceAction, TraceHeader, TraceItem, TraceReader,
     Value, read_trace, write_trace,
@@ -192,6 +192,12 @@ fn atom() -> impl Strategy<Value = GroundAtom> {
     (word.clone(), prop::collection::vec(word, 0..3)).prop_map(|(predicate, args)| GroundAtom { predicate, args })
 }
 
+fn pattern() -> impl Strategy<Value = Pattern<Symbol>> {
+    let word = "[a-z]{1,3}".prop_map(Symbol::from);
+    let slot = prop_oneof![1 => Just(Slot::Any), 2 => word.clone().prop_map(Slot::Is)];
+    (word, prop::collection::vec(slot, 0..3)).prop_map(|(predicate, args)| Pattern { predicate, args })
+}
+
 fn scene() -> impl Strategy<Value = Scene> {
     let value = prop_oneof![
         any::<bool>().prop_map(Value::Bool),
@@ -209,7 +215,7 @@ fn scene() -> impl Strategy<Value = Scene> {
     let symbolic = (
         prop::collection::btree_map(name(), name(), 0..3),
         prop::collection::btree_set(atom(), 0..3),
-        prop::collection::btree_set(atom(), 0..3),
+        prop::collection::btree_set(pattern(), 0..3),
     );
     prop_oneof![
         prop::collection::vec(entity, 0..3).prop_map(|entities| Scene::Snapshot(Snapshot { entities })),

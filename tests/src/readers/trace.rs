@@ -4,8 +4,8 @@ use std::path::Path;
 
 use typelift::model::ParseConfig;
 use typelift::world::{
-    Dataset, FileError, ObjectTypes, Parser, Scene, TraceAction, TraceHeader, TraceItem, TraceReader, read_any_trace,
-    write_trace,
+    Dataset, FileError, Parser, Scene, TraceAction, TraceHeader, TraceItem, TraceReader, TrajectoryContext,
+    read_any_trace, write_trace,
 };
 
 use super::errors::assert_shown;
@@ -21,7 +21,7 @@ pub fn trace(bytes: &[u8]) {
         assert_eq!(items(&written), Ok((header, scenes, actions)), "{}", String::from_utf8_lossy(&written));
     }
     let mut parser = Parser::new(sample::hierarchy(), ParseConfig::default());
-    match in_file(bytes, |path| read_any_trace(path, &ObjectTypes::default(), &mut parser)) {
+    match in_file(bytes, |path| read_any_trace(path, &TrajectoryContext::default(), &mut parser)) {
         Ok(trace) => assert_learned(&Dataset::new(&parser, vec![trace])),
         Err(error) => assert_shown(&error, bytes),
     }

@@ -30,7 +30,7 @@ pub fn trajectory(bytes: &[u8]) {
         return;
     };
     let mut parser = Parser::new(hierarchy, ParseConfig::default());
-    match in_file(trajectory.as_bytes(), |path| read_any_trace(path, &objects, &mut parser)) {
+    match in_file(trajectory.as_bytes(), |path| read_any_trace(path, &objects.clone().into(), &mut parser)) {
         Ok(trace) => assert_learned(&Dataset::new(&parser, vec![trace])),
         Err(error) => assert_shown(&error, trajectory.as_bytes()),
     }

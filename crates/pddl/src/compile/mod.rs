@@ -121,7 +121,7 @@ fn problem_within(problem: &Problem, model: &mut ActionModel, limits: Limits) ->
         model.actions.iter_mut().for_each(|action| action.cost = Cost::UNIT);
     }
     let values = problem.values.iter().filter(|(function, _)| function.predicate != *TOTAL_COST).cloned();
-    Ok(Task { init: State { objects, atoms, unknown: BTreeSet::new() }, goal, values: values.collect() })
+    Ok(Task { init: State { objects, atoms, ..State::default() }, goal, values: values.collect() })
 }
 
 /// Adds declared objects with their types.
