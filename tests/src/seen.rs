@@ -43,7 +43,7 @@ impl Seen {
 
     pub fn evidence(&self) -> Evidence {
         let (before, after) = (self.state(&self.before), self.state(&self.after));
-        let action = TraceAction { call: self.call.clone(), executed: None, reason: None, time: None };
+        let action = TraceAction::from(self.call.clone());
         let transition = Transition { before: &before, action: &action, after: &after, file: None, step: 1 };
         let mut evidence = Evidence::default();
         observe(&mut evidence, &transition, &small_types());

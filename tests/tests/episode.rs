@@ -7,7 +7,7 @@ use typelift::agent::{Account, Command, Ending, Episode, Experience, Input, Opti
 use typelift::learn::{evidence_of, learn};
 use typelift::model::{ActionModel, Budget, GroundAtom, GroundCall, Hierarchy, ParseConfig, Plan, State, Stop, Symbol};
 use typelift::plan::Exclusion;
-use typelift::world::{Dataset, Parser, Scene, Trace, TraceAction};
+use typelift::world::{Dataset, Parser, Scene, Trace, TraceAction, Verdict};
 
 fn failed_calls(account: &Account) -> Vec<String> {
     account.failures.iter().map(|failure| failure.call.to_string()).collect()
@@ -30,7 +30,7 @@ fn saws() -> (Arc<ActionModel>, Parser) {
         };
         let states = vec![scene("whole"), scene("cut")];
         let call = cut("saw_1", "it");
-        let actions = vec![TraceAction { call, executed: None, reason: None, time: None }];
+        let actions = vec![TraceAction::from(call)];
         shown.traces.push(Trace { states, actions, ..Trace::default() });
     }
     let learned = learn(&hierarchy, &evidence_of(&shown), &Default::default()).expect("a model");
@@ -120,7 +120,7 @@ fn a_refusal_is_tried_again_then_blamed() {
     assert!(account.solved());
     assert_eq!((account.proposals, account.actions), (2, 3));
     let [failure] = account.failures.as_slice() else { panic!("{:?}", account.failures) };
-    assert_eq!((failure.result, failure.reason.as_deref()), (StepResult::Refused, Some("jammed")));
+    assert_eq!((failure.result, failure.reason.as_deref()), (StepResult::Tried(Verdict::Refused), Some("jammed")));
     let blamed = Exclusion { object: Symbol::new("saw_1"), call: Some(Symbol::new("cut")) };
     assert_eq!(failure.excluded, [blamed]);
     let (_, why) = it.episode.experience().exclusions().next().expect("one");
@@ -177,7 +177,7 @@ fn after_a_time_out_it_looks() {
     assert_eq!(it.proposed(Input::Observation(whole)), [cut("saw_2", "b")]);
     let account = it.done(Input::Stop);
     assert_eq!(account.ending, Ending::Stopped(Stop::Cancelled));
-    assert_eq!(account.failures.iter().map(|f| f.result).collect::<Vec<_>>(), [StepResult::TimedOut]);
+    assert_eq!(account.failures.iter().map(|f| f.result).collect::<Vec<_>>(), [StepResult::Tried(Verdict::TimedOut)]);
     assert_eq!(account.actions, 2);
 }
 

@@ -10,7 +10,7 @@ use typelift::agent::{Account, Confirmation, Ending, Event, Experience, Options,
 use typelift::imagine;
 use typelift::model::{GroundCall, Plan, Step, Stop, Symbol};
 use typelift::plan::Exclusion;
-use typelift::world::{Acted, World};
+use typelift::world::{Acted, Verdict, World};
 use typelift_kitchen::{Kitchen, KitchenTask, faults, tasks};
 use typelift_tests::{Ran, Watched, approve, kitchen_model, paper_options, run_in};
 
@@ -268,7 +268,7 @@ fn a_failing_step_is_tried_as_often_as_asked() {
         assert!(account.solved());
         let [failure] = account.failures.as_slice() else { panic!("{:?}", account.failures) };
         assert_eq!(failure.call.to_string(), "USE(agent_1, cutboard_1, lettuce_1)");
-        assert_eq!(failure.result, StepResult::Refused);
+        assert_eq!(failure.result, StepResult::Tried(Verdict::Refused));
         assert_eq!(world.times_told(&failure.call), times, "retries {retries:?}, restart {restart}");
         let retried = events.iter().filter(|event| matches!(event, Event::Retried { .. })).count();
         assert_eq!(retried, times - 1);
@@ -299,11 +299,11 @@ fn what_fails_once_is_repaired_by_trying_again() {
             assert!(account.solved(), "action {lost}: {:?}", account.ending);
             assert_eq!((account.proposals, account.actions), (1, length + 1), "action {lost}");
             assert!(account.failures.is_empty() && experience == Experience::new(), "nothing is blamed");
-            let missed = if claims { StepResult::NothingChanged } else { StepResult::Refused };
+            let missed = StepResult::Tried(if claims { Verdict::Nothing } else { Verdict::Refused });
             let results: Vec<StepResult> = events
                 .iter()
                 .filter_map(|event| match event {
-                    Event::Stepped { result, .. } if *result != StepResult::AsExpected => Some(*result),
+                    Event::Stepped { result, .. } if *result != StepResult::Tried(Verdict::AsExpected) => Some(*result),
                     _ => None,
                 })
                 .collect();

@@ -25,7 +25,7 @@ fn look(n: usize, name: impl Fn(usize) -> String, before: impl Fn(usize) -> Vec<
 fn observed(before: &State, after: &State) -> Evidence {
     let hierarchy = Hierarchy::from_edges([("thing", "object")]).expect("a tree");
     let call = GroundCall { name: "look".into(), args: Vec::new() };
-    let action = TraceAction { call, executed: None, reason: None, time: None };
+    let action = TraceAction::from(call);
     let mut evidence = Evidence::default();
     observe(&mut evidence, &Transition { before, action: &action, after, file: None, step: 1 }, &hierarchy);
     evidence

@@ -86,7 +86,7 @@ fn walk(seed: u64, steps: usize, parser: &mut Parser) -> Trace {
             if acted.executed || random.below(20) == 0 {
                 trace.states.push(parse(&acted.scene));
                 let (executed, reason) = (Some(acted.executed), acted.reason);
-                trace.actions.push(TraceAction { call, executed, reason, time: None });
+                trace.actions.push(TraceAction { executed, reason, ..TraceAction::from(call) });
                 break;
             }
         }
@@ -272,7 +272,7 @@ proptest! {
             let objects: BTreeMap<Symbol, TypeId> = [(it[0].clone(), h.id("cup").expect("a type"))].into();
             let state = |atoms| State { objects: objects.clone(), atoms, ..State::default() };
             let call = GroundCall { name: Symbol::new("do"), args: it };
-            let action = TraceAction { call, executed: None, reason: None, time: None };
+            let action = TraceAction::from(call);
             let (before, after) = (state(before), state(after));
             let step = step as u64 + 1;
             let transition = Transition { before: &before, action: &action, after: &after, file: None, step };

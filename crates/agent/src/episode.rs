@@ -9,6 +9,7 @@ use std::sync::Arc;
 
 use typelift_model::{ActionModel, Budget, Goal, GroundAction, GroundAtom, Plan, State, Stop, Symbol, Task};
 use typelift_plan::{Ban, Exclusion, Outcome};
+use typelift_world::Verdict;
 
 use crate::account::{Account, Ending, Failure};
 use crate::event::{Event, Observer, PlanSummary};
@@ -145,7 +146,7 @@ impl Episode {
             (Phase::AwaitingApproval, _) => Ok(Command::Propose(self.plan.clone())),
             (Phase::AwaitingResult, Input::Observation(state)) => self.judge(state, None, None, observer),
             (Phase::AwaitingResult, Input::Refused { reason, state }) => {
-                self.judge(state, Some(StepResult::Refused), Some(reason), observer)
+                self.judge(state, Some(Verdict::Refused), Some(reason), observer)
             }
             (Phase::AwaitingResult, Input::TimedOut) => {
                 self.phase = Phase::AwaitingLateState;
@@ -154,7 +155,7 @@ impl Episode {
             // Not the action again: it may be under way.
             (Phase::AwaitingResult, _) => Ok(Command::Observe),
             (Phase::AwaitingLateState, Input::Observation(state) | Input::Refused { state, .. }) => {
-                self.judge(state, Some(StepResult::TimedOut), None, observer)
+                self.judge(state, Some(Verdict::TimedOut), None, observer)
             }
             (Phase::AwaitingLateState, _) => Ok(Command::Observe),
         }
@@ -335,7 +336,7 @@ impl Episode {
     fn judge(
         &mut self,
         after: State,
-        excuse: Option<StepResult>,
+        excuse: Option<Verdict>,
         reason: Option<String>,
         observer: &mut dyn Observer,
     ) -> Result<Command, ProposeError> {
@@ -345,22 +346,22 @@ impl Episode {
         let strict = self.planned_with.action(step.action.as_str()).is_some_and(|action| action.strict);
         // A relaxed plan knows that not every effect will be a change.
         let strict_effects = strict && !self.relaxed;
-        let seen = self.expected().map_or(StepResult::Otherwise, |e| compare(&e, &self.state, &after, strict_effects));
-        let result = match excuse {
-            Some(excuse) if seen == StepResult::NothingChanged || excuse == StepResult::TimedOut => match seen {
-                StepResult::AsExpected => seen,
+        let seen = self.expected().map_or(Verdict::Otherwise, |e| compare(&e, &self.state, &after, strict_effects));
+        let verdict = match excuse {
+            Some(excuse) if seen == Verdict::Nothing || excuse == Verdict::TimedOut => match seen {
+                Verdict::AsExpected => seen,
                 _ => excuse,
             },
             _ => seen,
         };
-        if result == StepResult::AsExpected {
-            self.report_step(result, reason, &after, observer);
+        if verdict == Verdict::AsExpected {
+            self.report_step(StepResult::Tried(verdict), reason, &after, observer);
             self.state = after;
             self.next_step += 1;
             self.attempts = 0;
             return self.advance(observer);
         }
-        self.fail(result, reason, Some(after), observer)
+        self.fail(StepResult::Tried(verdict), reason, Some(after), observer)
     }
 
     fn report_step(&self, result: StepResult, reason: Option<String>, after: &State, observer: &mut dyn Observer) {

@@ -1,25 +1,15 @@
 //! The effect check: what an action changed against what it was expected to change.
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use typelift_model::{GroundAction, GroundAtom, State};
+use typelift_world::Verdict;
 
-/// What came of a step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
+/// What came of a step of a plan.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StepResult {
-    /// Every expected change was observed; more may have changed besides.
-    AsExpected,
-    /// Nothing changed.
-    NothingChanged,
-    /// Some of the expected changes were observed.
-    Partly,
-    /// Something changed, but nothing that was expected.
-    Otherwise,
-    /// Whoever executes declined, and nothing changed.
-    Refused,
-    /// Whoever executes did not finish in time.
-    TimedOut,
-    /// A person rejected the step before it was executed.
+    /// It was carried out, or tried; the states around it say what came of that.
+    Tried(Verdict),
+    /// A person rejected it before it was executed: no verdict of the world.
     Rejected,
 }
 
@@ -27,14 +17,33 @@ impl StepResult {
     /// A short phrase for it.
     pub fn phrase(self) -> &'static str {
         match self {
-            Self::AsExpected => "as expected",
-            Self::NothingChanged => "nothing changed",
-            Self::Partly => "only part of the expected effect happened",
-            Self::Otherwise => "something else happened",
-            Self::Refused => "refused",
-            Self::TimedOut => "timed out",
+            Self::Tried(Verdict::AsExpected) => "as expected",
+            Self::Tried(Verdict::Nothing) => "nothing changed",
+            Self::Tried(Verdict::Partly) => "only part of the expected effect happened",
+            Self::Tried(Verdict::Otherwise) => "something else happened",
+            Self::Tried(Verdict::Refused) => "refused",
+            Self::Tried(Verdict::TimedOut) => "timed out",
             Self::Rejected => "rejected",
         }
+    }
+
+    /// Its name in events and reports.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Tried(Verdict::AsExpected) => "as_expected",
+            Self::Tried(Verdict::Nothing) => "nothing_changed",
+            Self::Tried(Verdict::Partly) => "partly",
+            Self::Tried(Verdict::Otherwise) => "otherwise",
+            Self::Tried(Verdict::Refused) => "refused",
+            Self::Tried(Verdict::TimedOut) => "timed_out",
+            Self::Rejected => "rejected",
+        }
+    }
+}
+
+impl Serialize for StepResult {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.word())
     }
 }
 
@@ -43,7 +52,7 @@ impl StepResult {
 /// Every atom of the expected effect must be in the observed change; additional changes are tolerated. Every effect
 /// of a learned action was a change when it was observed, so `strict_effects` expects each to be a change now; for
 /// given actions only what would change is expected. An atom that is unknown before or after counts neither way.
-pub fn compare(action: &GroundAction, before: &State, after: &State, strict_effects: bool) -> StepResult {
+pub fn compare(action: &GroundAction, before: &State, after: &State, strict_effects: bool) -> Verdict {
     let wanted = |atom: &&GroundAtom, adds: bool| {
         let known = !before.is_unknown(atom) && !after.is_unknown(atom);
         known && (strict_effects || before.holds(atom) != adds)
@@ -54,12 +63,12 @@ pub fn compare(action: &GroundAction, before: &State, after: &State, strict_effe
     let deletes: Vec<bool> = action.deletes.iter().filter(|a| wanted(a, false)).map(deleted).collect();
     let observed: Vec<bool> = adds.into_iter().chain(deletes).collect();
     if observed.iter().all(|&seen| seen) {
-        StepResult::AsExpected
+        Verdict::AsExpected
     } else if before.objects == after.objects && before.added(after).chain(before.deleted(after)).next().is_none() {
-        StepResult::NothingChanged
+        Verdict::Nothing
     } else if observed.iter().any(|&seen| seen) {
-        StepResult::Partly
+        Verdict::Partly
     } else {
-        StepResult::Otherwise
+        Verdict::Otherwise
     }
 }

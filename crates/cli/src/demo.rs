@@ -168,18 +168,12 @@ fn learn_all(demonstrations: &[Demonstration]) -> Result<(LearnedModel, Report),
         for scene in &demonstration.scenes {
             states.push(parser.parse(scene).map_err(Failure::bad_input)?);
         }
-        let action = |call: &typelift::model::GroundCall| TraceAction {
-            call: call.clone(),
-            executed: None,
-            reason: None,
-            time: None,
-        };
         traces.push(Trace {
             file: Some(Symbol::from(format!("{}.jsonl", demonstration.name))),
             task: demonstration.task.clone(),
             goal: demonstration.goal.clone(),
             states,
-            actions: demonstration.calls.iter().map(action).collect(),
+            actions: demonstration.calls.iter().cloned().map(TraceAction::from).collect(),
             ..Trace::default()
         });
     }

@@ -106,13 +106,7 @@ fn export(folder: &Path, seed: u64, quiet: bool) -> Result<Exit, Failure> {
 
 fn trace_bytes(demonstration: &Demonstration) -> Result<Vec<u8>, Failure> {
     let header = TraceHeader { task: demonstration.task.clone(), goal: demonstration.goal.clone() };
-    let action = |call: &typelift::model::GroundCall| TraceAction {
-        call: call.clone(),
-        executed: None,
-        reason: None,
-        time: None,
-    };
-    let actions: Vec<TraceAction> = demonstration.calls.iter().map(action).collect();
+    let actions: Vec<TraceAction> = demonstration.calls.iter().cloned().map(TraceAction::from).collect();
     let mut bytes = Vec::new();
     write_trace(&mut bytes, &header, &demonstration.scenes, &actions)?;
     Ok(bytes)

@@ -5,6 +5,7 @@ use std::io::{BufWriter, Write};
 use std::time::{Duration, Instant};
 
 use typelift::agent::{Event, Observer, StepResult};
+use typelift::world::Verdict;
 
 use crate::style::{BAD, DIM, GOOD, IMAGINED, WARNING, count};
 
@@ -63,7 +64,7 @@ pub(crate) fn told(event: &Event) -> Option<String> {
         }
         Event::Stepped { step, call, imagined, result, reason, .. } => {
             let mark = if *imagined { format!("  {IMAGINED}imagined{IMAGINED:#}") } else { String::new() };
-            if *result == StepResult::AsExpected {
+            if *result == StepResult::Tried(Verdict::AsExpected) {
                 format!("  {step:>3}  {call}{mark}  {GOOD}ok{GOOD:#}")
             } else {
                 let reason = reason.as_ref().map(|reason| format!(": {reason}")).unwrap_or_default();

@@ -16,11 +16,7 @@ pub fn dataset_of(demonstrations: &[Demonstration]) -> Dataset {
         task: d.task.clone(),
         goal: d.goal.clone(),
         states: d.scenes.iter().map(|scene| parser.parse(scene).expect("a state")).collect(),
-        actions: d
-            .calls
-            .iter()
-            .map(|call| TraceAction { call: call.clone(), executed: None, reason: None, time: None })
-            .collect(),
+        actions: d.calls.iter().cloned().map(TraceAction::from).collect(),
         ..Trace::default()
     };
     let traces: Vec<Trace> = demonstrations.iter().map(trace).collect();

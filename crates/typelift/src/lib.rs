@@ -38,7 +38,7 @@
 //!     let call = GroundCall { name: "cut".into(), args: vec!["saw_1".into(), "it".into()] };
 //!     demonstrations.traces.push(Trace {
 //!         states: vec![parser.parse(&scene(false)?)?, parser.parse(&scene(true)?)?],
-//!         actions: vec![TraceAction { call, executed: None, reason: None, time: None }],
+//!         actions: vec![TraceAction::from(call)],
 //!         ..Trace::default()
 //!     });
 //! }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use typelift_model::{GroundAtom, GroundCall, Hierarchy, ParseConfig, State, Symbol, Witness};
 
-use crate::{FileError, Parser};
+use crate::{Expected, FileError, Parser, Verdict};
 
 /// One action of a trace.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,6 +17,17 @@ pub struct TraceAction {
     pub reason: Option<String>,
     /// When, in seconds, if recorded.
     pub time: Option<f64>,
+    /// What the agent meant to do, if an agent with a model acted.
+    pub expected: Option<Expected>,
+    /// What that agent judged to have come of it; the learner sees the states themselves.
+    pub verdict: Option<Verdict>,
+}
+
+/// An action of which nothing but the call is known.
+impl From<GroundCall> for TraceAction {
+    fn from(call: GroundCall) -> Self {
+        Self { call, executed: None, reason: None, time: None, expected: None, verdict: None }
+    }
 }
 
 /// A demonstration: states and the actions between them; there is one state more than there are actions.

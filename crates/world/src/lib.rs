@@ -20,6 +20,7 @@ mod text_file;
 mod trace_file;
 mod trace_line;
 mod trajectory_file;
+mod verdict;
 
 pub use dataset::{Dataset, Trace, TraceAction, Transition};
 pub use dataset_file::{read_any_trace, read_dataset};
@@ -37,3 +38,4 @@ pub use text_file::{read_text, write_file};
 pub use trace_file::{TraceHeader, TraceItem, TraceReader, read_trace};
 pub use trace_line::{TRACE_FORMAT, TraceLine, write_trace};
 pub use trajectory_file::{TrajectoryContext, Unlisted, read_trajectory};
+pub use verdict::{Expected, Verdict};

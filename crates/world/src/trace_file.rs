@@ -135,8 +135,8 @@ impl<R: BufRead> TraceReader<R> {
                 TraceItem::State(state.scene().map_err(error)?)
             }
             (None, Some(call)) => {
-                let BodyLine { executed, reason, t: time, .. } = body;
-                TraceItem::Action(TraceAction { call, executed, reason, time })
+                let BodyLine { executed, reason, t: time, expected, verdict, .. } = body;
+                TraceItem::Action(TraceAction { call, executed, reason, time, expected, verdict })
             }
             (None, None) => return Err(error("this line has neither a `state` nor an `action`")),
             (Some(_), Some(_)) => return Err(error("this line has both a `state` and an `action`")),
@@ -242,8 +242,9 @@ pub(crate) fn trace_from<R: BufRead>(
                     FileError::at_line(path, line, format!("the action's name: {error}")).with_hint(hint.to_owned())
                 })?;
                 let state = trace.states.last().map(|state| &state.objects);
-                let missing = action.call.args.iter().find(|arg| !state.is_some_and(|s| s.contains_key(*arg)));
-                if let Some(missing) = missing {
+                let expected = action.expected.iter().flat_map(|expected| &expected.args);
+                let mut mentioned = action.call.args.iter().chain(expected);
+                if let Some(missing) = mentioned.find(|arg| !state.is_some_and(|s| s.contains_key(*arg))) {
                     let what = format!(
                         "the action {} mentions `{missing}`, which is not in the state before it (line {state_line})",
                         action.call

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use typelift_model::{GroundAtom, GroundCall, Pattern, Symbol};
 
 use crate::entity_line::EntityLine;
-use crate::{Scene, Snapshot, TraceAction, TraceHeader, json};
+use crate::{Expected, Scene, Snapshot, TraceAction, TraceHeader, Verdict, json};
 
 /// The format that this version reads and writes.
 pub const TRACE_FORMAT: &str = "trace/1";
@@ -50,6 +50,12 @@ pub enum TraceLine<'a> {
         /// When, in seconds.
         #[serde(skip_serializing_if = "Option::is_none")]
         t: Option<f64>,
+        /// What the agent meant to do, if an agent with a model acted.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        expected: Option<&'a Expected>,
+        /// What that agent judged to have come of it.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        verdict: Option<Verdict>,
     },
 }
 
@@ -67,8 +73,15 @@ impl<'a> From<&'a Scene> for TraceLine<'a> {
 
 impl<'a> From<&'a TraceAction> for TraceLine<'a> {
     fn from(action: &'a TraceAction) -> Self {
-        let TraceAction { call, executed, reason, time } = action;
-        Self::Action { action: call, executed: *executed, reason: reason.as_deref(), t: *time }
+        let TraceAction { call, executed, reason, time, expected, verdict } = action;
+        Self::Action {
+            action: call,
+            executed: *executed,
+            reason: reason.as_deref(),
+            t: *time,
+            expected: expected.as_ref(),
+            verdict: *verdict,
+        }
     }
 }
 
@@ -125,6 +138,8 @@ pub(crate) struct BodyLine {
     pub(crate) executed: Option<bool>,
     pub(crate) reason: Option<String>,
     pub(crate) t: Option<f64>,
+    pub(crate) expected: Option<Expected>,
+    pub(crate) verdict: Option<Verdict>,
 }
 
 /// A scene of either kind, as it is read; unlike the scene itself it can say at which place it is malformed.

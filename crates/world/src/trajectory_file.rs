@@ -75,7 +75,7 @@ pub(crate) fn trajectory_from(
     trace.actions = trajectory
         .actions
         .into_iter()
-        .map(|action| TraceAction { call: action.call, executed: action.executed, reason: None, time: None })
+        .map(|action| TraceAction { executed: action.executed, ..TraceAction::from(action.call) })
         .collect();
     Ok(trace)
 }

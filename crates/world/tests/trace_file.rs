@@ -6,13 +6,15 @@ use std::path::Path;
 use proptest::prelude::*;
 use typelift_model::{GroundAtom, GroundCall, Hierarchy, ParseConfig, Pattern, Slot, Symbol};
 use typelift_world::{
-    Entity, FileError, Parser, Relation, Scene, Snapshot, Trace, TraceAction, TraceHeader, TraceItem, TraceReader,
-    Value, read_trace, write_trace,
+    Entity, Expected, FileError, Parser, Relation, Scene, Snapshot, Trace, TraceAction, TraceHeader, TraceItem,
+    TraceReader, Value, Verdict, read_trace, write_trace,
 };
 
 const HEADER: &str = r#"{"format":"trace/1","task":"t","goal":["free(a)"],"recorder":"x"}"#;
 const STATE: &str = r#"{"state":{"objects":{"a":"block"},"atoms":["free(a)"]}}"#;
 const ACTION: &str = r#"{"action":{"name":"GO","args":["a"]},"executed":false,"reason":"stuck","t":1.5,"extra":{}}"#;
+const MEANT: &str =
+    r#"{"action":{"name":"GO","args":[]},"expected":{"action":"GO-block","args":["a"]},"verdict":"timed-out"}"#;
 
 fn parser() -> Parser {
     let hierarchy = Hierarchy::from_edges([("block", "object"), ("arm", "object")]).expect("a tree");
@@ -40,9 +42,26 @@ fn a_trace_is_read() {
     assert_eq!((trace.file, trace.task.as_str()), (Some(Symbol::new("a.jsonl")), "t"));
     assert_eq!(trace.goal[0].to_string(), "free(a)");
     assert_eq!((trace.states.len(), trace.actions.len()), (2, 1));
-    let TraceAction { call, executed, reason, time } = &trace.actions[0];
+    let TraceAction { call, executed, reason, time, expected, verdict } = &trace.actions[0];
     assert_eq!((call.to_string().as_str(), *executed), ("GO(a)", Some(false)));
     assert_eq!((reason.as_deref(), *time), (Some("stuck"), Some(1.5)));
+    assert_eq!((expected, verdict), (&None, &None));
+}
+
+#[test]
+fn what_an_agent_meant_and_how_it_judged_is_read() {
+    let trace = read(&[HEADER, STATE, MEANT, STATE]).expect("a trace");
+    let expected = Expected { action: Symbol::new("GO-block"), args: vec![Symbol::new("a")] };
+    assert_eq!(trace.actions[0].expected, Some(expected));
+    assert_eq!(trace.actions[0].verdict, Some(Verdict::TimedOut));
+    let error = refused(&[HEADER, STATE, &MEANT.replace("\"a\"", "\"b\""), STATE]);
+    assert_eq!(error, "a.jsonl:3: the action GO() mentions `b`, which is not in the state before it (line 2)");
+    let error = refused(&[HEADER, STATE, &MEANT.replace("timed-out", "late"), STATE]);
+    assert_eq!(
+        error,
+        "a.jsonl:3:96: unknown variant `late`, expected one of `as-expected`, `nothing`, `partly`, `otherwise`, \
+         `refused`, `timed-out`"
+    );
 }
 
 #[test]
@@ -227,6 +246,9 @@ fn scene() -> impl Strategy<Value = Scene> {
     ]
 }
 
+const VERDICTS: [Verdict; 6] =
+    [Verdict::AsExpected, Verdict::Nothing, Verdict::Partly, Verdict::Otherwise, Verdict::Refused, Verdict::TimedOut];
+
 prop_compose! {
     fn action()(
         name in name(),
@@ -234,8 +256,11 @@ prop_compose! {
         executed in prop::option::of(any::<bool>()),
         reason in prop::option::of("\\PC{0,8}"),
         time in prop::option::of(0.0..1e6),
+        expected in prop::option::of((name(), prop::collection::vec(name(), 0..3))),
+        verdict in prop::option::of(prop::sample::select(VERDICTS.to_vec())),
     ) -> TraceAction {
-        TraceAction { call: GroundCall { name, args }, executed, reason, time }
+        let expected = expected.map(|(action, args)| Expected { action, args });
+        TraceAction { call: GroundCall { name, args }, executed, reason, time, expected, verdict }
     }
 }
 

@@ -89,7 +89,7 @@ impl Play {
         self.step += 1;
         let after = self.observe();
         let before = std::mem::replace(&mut self.before, after.clone());
-        let action = TraceAction { call, executed: None, reason: None, time: None };
+        let action = TraceAction::from(call);
         Observed { before, action, after, file: self.file.clone(), step: self.step }
     }
 

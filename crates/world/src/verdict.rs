@@ -1,0 +1,35 @@
+//! What was expected of an action, and what the states around it say came of it.
+
+use serde::{Deserialize, Serialize};
+use typelift_model::Symbol;
+
+/// The action of a model that an agent meant to carry out: a call alone does not say which of several actions with that
+/// call it was, nor which entities it concerns besides the call's arguments.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Expected {
+    /// The name of the action schema.
+    pub action: Symbol,
+    /// The entities in place of all its parameters, in order.
+    pub args: Vec<Symbol>,
+}
+
+/// What came of an action, judged by comparing the states around it with what was expected. Files have it in words
+/// joined by hyphens: `as-expected`, `nothing`, `partly`, `otherwise`, `refused`, `timed-out`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
+pub enum Verdict {
+    /// Every expected change was observed; more may have changed besides.
+    AsExpected,
+    /// Nothing changed, though the environment says that it did it.
+    Nothing,
+    /// Some of the expected changes were observed.
+    Partly,
+    /// Something changed, but nothing that was expected.
+    Otherwise,
+    /// The environment declined, and nothing changed.
+    Refused,
+    /// The environment did not finish in time.
+    TimedOut,
+}
