@@ -14,9 +14,10 @@ use typelift_kitchen::{Demonstration, Kitchen, KitchenTask, demonstrations, draw
 use crate::describe::{describe, individual_name};
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::limits::{Clock, parse_whole};
+use crate::limits::Clock;
 use crate::narrate::told;
 use crate::plan_text::{imagined_note, plan_size};
+use crate::quantities::parse_whole;
 use crate::style::{DIM, GOOD, HEAD, IMAGINED, count, wrapped};
 
 /// The task shown of each set, and what is new about it.

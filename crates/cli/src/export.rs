@@ -6,53 +6,64 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use typelift::imagine::imagine;
-use typelift::model::{ActionModel, Budget, PddlNames, Symbol, Task, strict};
+use typelift::model::{PddlNames, Symbol};
 use typelift::pddl::{ExportNames, ExportOptions, Exported, export};
-use typelift::plan::Restrictions;
 use typelift::world::{FileError, write_file};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::files::{domain_name, keep_inputs, read_model_input, task_name};
+use crate::files::{domain_name, keep_inputs, task_name};
+use crate::limits::{Clock, Interrupt, Limits};
 use crate::planner_option::LevelArgument;
+use crate::planning_options::ModelArguments;
 use crate::style::count;
+use crate::watchdog::within;
 
 /// Write a model, and a task for it, as files that other planners read
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   typelift export kitchen.json K/tasks/T1.1.json -o lettuce
-  typelift export kitchen.json K/tasks/T4.1.json --imagine --level strips -o apple
-  typelift export kitchen.json -o kitchen
+  typelift export kitchen.json K/tasks/T4.1.json --imagine --level strips -o A
+  typelift export kitchen.json --name my-kitchen -o kitchen
 
 Writes domain.pddl, problem.pddl if there is a task, and names.json, which says
 what the names in a plan stand for. Other planners read them, as
 
   fast-downward --alias lama-first lettuce/domain.pddl lettuce/problem.pddl
-  pyperplan -H hadd -s ehs apple/domain.pddl apple/problem.pddl")]
+  pyperplan -H hadd -s ehs A/domain.pddl A/problem.pddl
+
+Exit codes: 0 done, 22 out of memory, 23 out of time, 31 bad input,
+34 the planner's language cannot say it, 36 wrong usage.")]
 pub(crate) struct Export {
-    /// The model, as `learn` wrote it, or a PDDL domain
-    model: PathBuf,
+    #[command(flatten)]
+    model: ModelArguments,
     /// A task with the state to plan from, or a PDDL problem
+    #[arg(index = 2)]
     task: Option<PathBuf>,
+    /// The name of the exported domain [default: that of a PDDL domain, or else the file's]
+    #[arg(long, value_parser = parse_domain_name)]
+    name: Option<Symbol>,
     /// The language
     #[arg(long, value_enum, default_value_t = Format::Pddl)]
     format: Format,
     /// How much of the language the planner knows
     #[arg(long, value_enum, default_value_t = LevelArgument::Adl)]
     level: LevelArgument,
-    /// A file with more types
-    #[arg(long, value_name = "FILE")]
-    types: Option<PathBuf>,
-    /// Add the actions that are imagined for the task
-    #[arg(long, requires = "task")]
-    imagine: bool,
-    /// Let an action be used also where some of its effects hold already
-    #[arg(long)]
-    plain: bool,
     /// The folder to write to; made if it is not there
     #[arg(long, short, value_name = "DIR")]
     output: PathBuf,
+    /// Print one JSON object instead
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    limits: Limits,
+}
+
+/// Reads a name that a domain may have.
+fn parse_domain_name(text: &str) -> Result<Symbol, String> {
+    let is_name = text.starts_with(|c: char| c.is_ascii_alphabetic())
+        && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_');
+    if is_name { Ok(Symbol::new(text)) } else { Err("write a letter, then letters, digits, - and _".to_owned()) }
 }
 
 #[derive(Debug, Clone, Copy, clap::ValueEnum)]
@@ -69,55 +80,105 @@ struct NamesFile<'a> {
     objects: BTreeMap<&'a Symbol, &'a Symbol>,
 }
 
+/// What is printed with `--json`.
+#[derive(Serialize)]
+struct Report {
+    files: Vec<String>,
+    #[serde(flatten)]
+    counts: Counts,
+}
+
+/// How much was exported.
+#[derive(Serialize)]
+struct Counts {
+    actions: usize,
+    imagined_actions: usize,
+    predicates: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    objects: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    facts: Option<usize>,
+}
+
+impl Counts {
+    fn new(exported: &Exported, imagined_actions: usize) -> Self {
+        let Exported { domain, problem, .. } = exported;
+        let problem = problem.as_ref();
+        Self {
+            actions: domain.actions.len(),
+            imagined_actions,
+            predicates: domain.predicates.len(),
+            objects: problem.map(|problem| problem.objects.len() + domain.constants.len()),
+            facts: problem.map(|problem| problem.init.len()),
+        }
+    }
+
+    /// What is said of each file that is written, in their order.
+    fn texts(&self) -> Vec<String> {
+        let count = |n: usize, singular: &str| count(n as u64, singular);
+        let imagined = match self.imagined_actions {
+            0 => String::new(),
+            imagined => format!(", {imagined} imagined"),
+        };
+        let (actions, predicates) = (count(self.actions, "action"), count(self.predicates, "predicate"));
+        let mut texts = vec![format!(": {actions}{imagined}, {predicates}")];
+        if let (Some(objects), Some(facts)) = (self.objects, self.facts) {
+            texts.push(format!(": {}, {}", count(objects, "object"), count(facts, "fact")));
+        }
+        texts.push(String::new());
+        texts
+    }
+}
+
 impl Export {
-    pub(crate) fn run(&self, quiet: bool) -> Result<Exit, Failure> {
+    pub(crate) fn run(&self, clock: Clock, quiet: bool) -> Result<Exit, Failure> {
         let Format::Pddl = self.format;
+        if self.model.imagine && self.task.is_none() {
+            return Err(Failure::new(Exit::Usage, "--imagine: there is no task to imagine actions for"));
+        }
         let files = ["domain.pddl", "problem.pddl", "names.json"].map(|name| self.output.join(name));
         for file in &files {
-            keep_inputs(Some(file), [&self.model].into_iter().chain(&self.task).chain(&self.types))?;
+            keep_inputs(Some(file), self.model.files().chain(&self.task))?;
         }
-        let input = read_model_input(&self.model, self.types.as_ref())?;
+        let (exported, imagined) = within(clock, self.limits, || self.export(clock, quiet))?;
+        self.make_folder()?;
+        let mut written = vec![(&files[0], exported.domain.to_string())];
+        if let Some(problem) = &exported.problem {
+            written.push((&files[1], problem.to_string()));
+        }
+        written.push((&files[2], names_text(&exported.names)));
+        for (path, text) in &written {
+            write_file(path, text.as_bytes())?;
+        }
+        let counts = Counts::new(&exported, imagined);
+        let files: Vec<String> = written.iter().map(|(path, _)| path.display().to_string()).collect();
+        let mut out = anstream::stdout().lock();
+        if self.json {
+            writeln!(out, "{}", serde_json::to_string_pretty(&Report { files, counts }).unwrap_or_default())?;
+            return Ok(Exit::Success);
+        }
+        for (file, counts) in files.iter().zip(counts.texts()) {
+            writeln!(out, "wrote {file}{counts}")?;
+        }
+        Ok(Exit::Success)
+    }
+
+    /// What is to be written, and how many actions of it are imagined.
+    fn export(&self, clock: Clock, quiet: bool) -> Result<(Exported, usize), Failure> {
+        let input = self.model.read()?;
         let (model, task) = match &self.task {
             Some(path) => input.read_planning_task(path, quiet).map(|(model, task)| (model, Some(task)))?,
             None => (input.model().clone(), None),
         };
-        let model = self.model_to_export(model, task.as_ref())?;
+        let budget = self.limits.budget(clock, &Interrupt::default());
+        let model = self.model.as_used(model, task.as_ref(), &budget)?;
         let options = ExportOptions {
-            domain: domain_name(&self.model),
+            domain: self.name.clone().unwrap_or_else(|| domain_name(&self.model.model)),
             problem: Symbol::from(self.task.as_deref().map(task_name).unwrap_or_default()),
             level: self.level.into(),
         };
-        let Exported { domain, problem, names } = export(&model, task.as_ref(), &options)?;
-        self.make_folder()?;
-        let [domain_file, problem_file, names_file] = &files;
-        let mut out = anstream::stdout().lock();
-        write_file(domain_file, domain.to_string().as_bytes())?;
         let imagined = model.actions.iter().filter(|action| action.provenance.imagined().is_some()).count();
-        let imagined = if imagined == 0 { String::new() } else { format!(", {imagined} imagined") };
-        let actions = count(domain.actions.len() as u64, "action");
-        let predicates = count(domain.predicates.len() as u64, "predicate");
-        writeln!(out, "wrote {}: {actions}{imagined}, {predicates}", domain_file.display())?;
-        if let Some(problem) = problem {
-            write_file(problem_file, problem.to_string().as_bytes())?;
-            let objects = count((problem.objects.len() + domain.constants.len()) as u64, "object");
-            let facts = count(problem.init.len() as u64, "fact");
-            writeln!(out, "wrote {}: {objects}, {facts}", problem_file.display())?;
-        }
-        write_file(names_file, names_text(&names).as_bytes())?;
-        writeln!(out, "wrote {}", names_file.display())?;
-        Ok(Exit::Success)
-    }
-
-    /// The model with what is imagined for the task, strict unless that is not wanted.
-    fn model_to_export(&self, model: ActionModel, task: Option<&Task>) -> Result<ActionModel, Failure> {
-        let model = match task {
-            Some(task) if self.imagine => {
-                let nothing_failed = Restrictions::default();
-                imagine(&model, task, &nothing_failed, &Default::default(), &Budget::unlimited())?.added_to(&model)
-            }
-            _ => model,
-        };
-        Ok(if self.plain { model } else { strict(&model) })
+        Ok((export(&model, task.as_ref(), &options)?, imagined))
     }
 
     fn make_folder(&self) -> Result<(), Failure> {

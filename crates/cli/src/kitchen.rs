@@ -16,7 +16,7 @@ use typelift_kitchen::{
 
 use crate::exit::Exit;
 use crate::failure::{Failure, or_one_of};
-use crate::limits::parse_whole;
+use crate::quantities::parse_whole;
 use crate::style::{BAD, GOOD, count};
 
 /// The built-in kitchen simulator

@@ -15,7 +15,8 @@ use crate::lab_hierarchy::LabHierarchy;
 use crate::lab_progress::Bar;
 use crate::lab_report::LabReport;
 use crate::lab_table::LabTable;
-use crate::limits::{Clock, Interrupt, parse_duration, parse_whole};
+use crate::limits::{Clock, Interrupt};
+use crate::quantities::{parse_duration, parse_whole};
 use crate::style::WARNING;
 
 /// Run the paper's experiments again, and set ours beside the published numbers

@@ -10,7 +10,8 @@ use crate::columns::Columns;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::lab::{LabLimits, LabOptions, warn};
-use crate::limits::{Clock, parse_whole};
+use crate::limits::Clock;
+use crate::quantities::parse_whole;
 use crate::style::{HEAD, wrapped};
 
 /// A model from every subset of 2 to 8 demonstrations, tested on all 24 tasks

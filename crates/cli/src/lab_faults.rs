@@ -9,7 +9,8 @@ use crate::columns::Columns;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::lab::{LabLimits, LabOptions, warn};
-use crate::limits::{Clock, parse_whole};
+use crate::limits::Clock;
+use crate::quantities::parse_whole;
 use crate::style::{BAD, DIM, GOOD, HEAD, wrapped};
 
 /// Broken tools and exceptions to what was learned, with restart and without

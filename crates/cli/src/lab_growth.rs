@@ -12,7 +12,8 @@ use crate::columns::Columns;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::lab::LabOptions;
-use crate::limits::{Clock, parse_duration, parse_whole};
+use crate::limits::Clock;
+use crate::quantities::{parse_duration, parse_whole};
 use crate::style::{HEAD, count, wrapped};
 
 /// How time and memory grow with objects, goals and demonstrations

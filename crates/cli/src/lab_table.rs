@@ -8,7 +8,8 @@ use crate::columns::Columns;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::lab::{LabLimits, LabOptions, warn};
-use crate::limits::{Clock, parse_whole};
+use crate::limits::Clock;
+use crate::quantities::parse_whole;
 use crate::style::{BAD, DIM, GOOD, HEAD, wrapped};
 
 /// Table I: 24 tasks, four variants, ours beside the paper's

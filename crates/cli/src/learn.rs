@@ -12,7 +12,9 @@ use typelift::world::{Dataset, ObjectTypes, TrajectoryContext, Unlisted, read_da
 use crate::exit::Exit;
 use crate::failure::{Failure, or_one_of};
 use crate::files::{keep_inputs, warn};
+use crate::limits::{Clock, Limits};
 use crate::style::{HEAD, HINT, WARNING, count, wrapped};
+use crate::watchdog::within;
 
 /// Learn actions from demonstrations
 #[derive(Debug, clap::Args)]
@@ -60,6 +62,8 @@ pub(crate) struct Learn {
     /// Write the model to this file
     #[arg(long, short, value_name = "MODEL", required_unless_present = "dry_run")]
     output: Option<PathBuf>,
+    #[command(flatten)]
+    limits: Limits,
 }
 
 #[derive(Serialize)]
@@ -76,9 +80,39 @@ struct Report {
 }
 
 impl Learn {
-    pub(crate) fn run(&self, quiet: bool) -> Result<Exit, Failure> {
+    pub(crate) fn run(&self, clock: Clock, quiet: bool) -> Result<Exit, Failure> {
         let inputs = self.traces.iter().chain([&self.types]).chain(&self.problems).chain(&self.objects);
         keep_inputs(self.output.as_deref(), inputs)?;
+        let (dataset, model, report) = within(clock, self.limits, || self.learn())?;
+        // First, so that the model is there also if nobody reads what is printed.
+        let output = self.output.as_ref().filter(|_| !self.dry_run);
+        if let Some(path) = output {
+            write_file(path, model.to_json()?.as_bytes())?;
+        }
+        let mut out = anstream::stdout().lock();
+        if self.json {
+            writeln!(
+                out,
+                "{}",
+                serde_json::to_string_pretty(&json_report(&dataset, &model, &report)).unwrap_or_default()
+            )?;
+        } else if self.dry_run {
+            self.describe(&mut out, &dataset, &model, &report)?;
+        } else {
+            print_counts(&mut out, &dataset, &model, &report)?;
+        }
+        out.flush()?;
+        if !quiet {
+            if let Some(path) = output {
+                anstream::eprintln!("wrote {}", path.display());
+            }
+            self.warn(&dataset, &model, &report);
+        }
+        Ok(Exit::Success)
+    }
+
+    /// Reads the traces, and learns from them.
+    fn learn(&self) -> Result<(Dataset, LearnedModel, learn::Report), Failure> {
         let hierarchy = read_hierarchy(&self.types)?;
         let ignore = self.ignore.iter().filter(|name| !name.is_empty()).map(|name| Symbol::new(name)).collect();
         let types = match (&self.problems, &self.objects) {
@@ -105,31 +139,7 @@ impl Learn {
             let hint = format!("{} Or say `none`.", or_one_of(name.as_str(), &types));
             Failure::bad_input(format!("--actor {name}: {error}")).with_hint(hint)
         })?;
-        // First, so that the model is there also if nobody reads what is printed.
-        let output = self.output.as_ref().filter(|_| !self.dry_run);
-        if let Some(path) = output {
-            write_file(path, model.to_json()?.as_bytes())?;
-        }
-        let mut out = anstream::stdout().lock();
-        if self.json {
-            writeln!(
-                out,
-                "{}",
-                serde_json::to_string_pretty(&json_report(&dataset, &model, &report)).unwrap_or_default()
-            )?;
-        } else if self.dry_run {
-            self.describe(&mut out, &dataset, &model, &report)?;
-        } else {
-            print_counts(&mut out, &dataset, &model, &report)?;
-        }
-        out.flush()?;
-        if !quiet {
-            if let Some(path) = output {
-                anstream::eprintln!("wrote {}", path.display());
-            }
-            self.warn(&dataset, &model, &report);
-        }
-        Ok(Exit::Success)
+        Ok((dataset, model, report))
     }
 
     /// `--dry-run`: what would be learned from.

@@ -8,6 +8,7 @@ use typelift::model::{Budget, Stop};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
+use crate::quantities::{parse_bytes, parse_duration, parse_whole};
 
 /// When the program started: a time limit covers reading and grounding too.
 #[derive(Debug, Clone, Copy)]
@@ -23,40 +24,27 @@ impl Clock {
     }
 }
 
-/// Limits that every command spells alike.
+/// The limits of every command that learns, plans or checks.
 #[derive(Debug, Clone, Copy, Default, clap::Args)]
 #[command(next_help_heading = "Limits")]
 pub(crate) struct Limits {
     /// Stop after this time, reading included: seconds, or 500ms, 30s, 5m
     #[arg(long, value_name = "TIME", value_parser = parse_duration, allow_negative_numbers = true)]
     time_limit: Option<Duration>,
-    /// Expand at most this many nodes in one search
-    #[arg(long, value_name = "N", value_parser = parse_whole, allow_negative_numbers = true)]
-    max_expansions: Option<u64>,
-    /// Hold at most this many megabytes, the program itself included
-    #[arg(long, value_name = "MB", value_parser = parse_whole, allow_negative_numbers = true)]
+    /// Hold at most so much memory, the program itself included: mebibytes, or 500M, 2G
+    #[arg(long, value_name = "SIZE", value_parser = parse_bytes, allow_negative_numbers = true)]
     memory_limit: Option<u64>,
 }
 
-/// Reads `90`, `500ms`, `30s`, `5m` or `1h`.
-pub(crate) fn parse_duration(text: &str) -> Result<Duration, String> {
-    let split = text.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(text.len());
-    let (number, unit) = text.split_at(split);
-    let factor = match unit {
-        "" | "s" => 1.0,
-        "ms" => 1e-3,
-        "m" | "min" => 60.0,
-        "h" => 3600.0,
-        _ if number.is_empty() => return Err("write a number of seconds, or 500ms, 30s, 5m or 1h".to_owned()),
-        _ => return Err(format!("unknown unit `{unit}`; write 500ms, 30s, 5m or 1h")),
-    };
-    let number: f64 = number.parse().map_err(|_| "write a number of seconds, or 500ms, 30s, 5m or 1h".to_owned())?;
-    Duration::try_from_secs_f64(number * factor).map_err(|e| e.to_string())
-}
-
-/// Reads a number as every option takes them.
-pub(crate) fn parse_whole(text: &str) -> Result<u64, String> {
-    text.parse().map_err(|_| format!("write a whole number from 0 to {}", u64::MAX))
+/// The limits of a command that searches.
+#[derive(Debug, Clone, Copy, Default, clap::Args)]
+#[command(next_help_heading = "Limits")]
+pub(crate) struct SearchLimits {
+    #[command(flatten)]
+    pub(crate) limits: Limits,
+    /// Expand at most this many nodes in one search
+    #[arg(long, value_name = "N", value_parser = parse_whole, allow_negative_numbers = true)]
+    max_expansions: Option<u64>,
 }
 
 /// Set by Ctrl-C and by a request to terminate.
@@ -105,12 +93,14 @@ impl Interrupt {
     }
 }
 
-impl Limits {
-    /// The same, with at most so many expansions a search unless the user said otherwise.
-    pub(crate) fn with_default_expansions(self, expansions: u64) -> Self {
-        Self { max_expansions: self.max_expansions.or(Some(expansions)), ..self }
+impl SearchLimits {
+    /// The budget that these limits leave; at most `expansions` a search where the user does not say.
+    pub(crate) fn budget(self, clock: Clock, interrupt: &Interrupt, expansions: Option<u64>) -> Budget {
+        Budget { expansions: self.max_expansions.or(expansions), ..self.limits.budget(clock, interrupt) }
     }
+}
 
+impl Limits {
     /// The time allowed, if it is limited.
     pub(crate) fn time(self) -> Option<Duration> {
         self.time_limit
@@ -118,7 +108,18 @@ impl Limits {
 
     /// The bytes of memory allowed, if they are limited.
     pub(crate) fn bytes(self) -> Option<u64> {
-        self.memory_limit.map(|megabytes| megabytes.saturating_mul(1 << 20))
+        self.memory_limit
+    }
+
+    /// The limit that is exceeded, if one is.
+    pub(crate) fn exceeded(self, clock: Clock) -> Option<Stop> {
+        if self.time_limit.is_some_and(|limit| clock.elapsed() >= limit) {
+            Some(Stop::Time)
+        } else if self.memory_limit.is_some_and(holds_more_than) {
+            Some(Stop::Memory)
+        } else {
+            None
+        }
     }
 
     /// The budget that these limits leave, counted from the program's start.
@@ -128,7 +129,7 @@ impl Limits {
         let bytes = self.bytes();
         let meter = MemoryMeter::default();
         Budget {
-            expansions: self.max_expansions,
+            expansions: None,
             // What the algorithms count for themselves is the second best.
             bytes: bytes.filter(|_| resident().is_none()),
             stop: Some(Arc::new(move || {
@@ -177,20 +178,5 @@ impl MemoryMeter {
         self.next.store(now + Self::INTERVAL, Ordering::Relaxed);
         // Some more is held before it is asked again, and a table that grows is there twice for a while.
         holds_more_than(bytes - bytes / 32)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn durations() {
-        assert_eq!(parse_duration("90"), Ok(Duration::from_secs(90)));
-        assert_eq!(parse_duration("500ms"), Ok(Duration::from_millis(500)));
-        assert_eq!(parse_duration("1.5m"), Ok(Duration::from_secs(90)));
-        assert!(
-            parse_duration("5 parsecs").is_err() && parse_duration("").is_err() && parse_duration("1e999").is_err()
-        );
     }
 }

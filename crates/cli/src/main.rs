@@ -30,7 +30,10 @@ mod pddl_domains;
 mod plan;
 mod plan_text;
 mod planner_option;
+mod planning_options;
+mod quantities;
 mod run;
+mod shell;
 mod show;
 mod style;
 mod validate;
@@ -68,6 +71,8 @@ enum Command {
     Pddl(pddl::Pddl),
     Kitchen(kitchen::Kitchen),
     Lab(lab::Lab),
+    Completions(shell::Completions),
+    Man(shell::Man),
 }
 
 fn main() -> ExitCode {
@@ -83,15 +88,17 @@ fn main() -> ExitCode {
     let quiet = arguments.quiet;
     let ended = match arguments.command {
         Command::Demo(demo) => demo.run(clock),
-        Command::Learn(learn) => learn.run(quiet),
+        Command::Learn(learn) => learn.run(clock, quiet),
         Command::Show(show) => show.run(),
         Command::Plan(plan) => plan.run(clock, quiet),
-        Command::Export(export) => export.run(quiet),
+        Command::Export(export) => export.run(clock, quiet),
         Command::Run(run) => run.run(clock, quiet),
-        Command::Validate(validate) => validate.run(quiet),
+        Command::Validate(validate) => validate.run(clock, quiet),
         Command::Pddl(pddl) => pddl.run(quiet),
         Command::Kitchen(kitchen) => kitchen.run(quiet),
         Command::Lab(lab) => lab.run(clock, quiet),
+        Command::Completions(completions) => completions.run(),
+        Command::Man(man) => man.run(quiet),
     };
     ended.unwrap_or_else(|failure: Failure| failure.report()).into()
 }

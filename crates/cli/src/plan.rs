@@ -14,12 +14,12 @@ use typelift::world::write_file;
 
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::files::{keep_inputs, read_model_input};
+use crate::files::keep_inputs;
 use crate::limits::{Clock, Interrupt, Limits};
 use crate::plan_text::{imagined_note, numbered_steps, plan_file, plan_size};
-use crate::planner_option::PlannerOption;
+use crate::planning_options::PlanningOptions;
 use crate::style::{BAD, HEAD, HINT, count};
-use crate::watchdog::Watchdog;
+use crate::watchdog::watched;
 
 /// Where the plan for a PDDL problem is written unless the user says otherwise, as Fast Downward does.
 const DEFAULT_OUTPUT: &str = "sas_plan";
@@ -41,16 +41,9 @@ Exit codes: 0 a plan was found, 11 there is none in this model, 12 gave up at a
 limit, 22 out of memory, 23 out of time, 31 bad input, 34 unsupported PDDL,
 36 wrong usage, 38 the other planner failed, 39 its plan is not valid.")]
 pub(crate) struct Plan {
-    /// The model, as `learn` wrote it, or a PDDL domain
-    model: PathBuf,
     /// The task: a goal and a state to start from; or a problem of the PDDL domain
+    #[arg(index = 2)]
     task: PathBuf,
-    /// Add the types of this file to the model's
-    #[arg(long, value_name = "FILE")]
-    types: Option<PathBuf>,
-    /// Imagine actions for goals that cannot be reached with the learned ones
-    #[arg(long)]
-    imagine: bool,
     /// Find so many different plans
     #[arg(long, value_name = "N", default_value_t = 1, allow_negative_numbers = true,
         value_parser = clap::value_parser!(u64).range(1..=1000), conflicts_with = "planner")]
@@ -58,19 +51,11 @@ pub(crate) struct Plan {
     /// Go on looking for cheaper plans until there is none, a limit is met, or Ctrl-C is pressed
     #[arg(long, conflicts_with_all = ["plans", "planner"])]
     better: bool,
-    /// Use an action also where some of its effects hold already
-    #[arg(long)]
-    plain: bool,
     /// Write the plan to this file; several to FILE.1, FILE.2, … [default: none, and sas_plan for a PDDL problem]
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Print one JSON object instead
-    #[arg(long)]
-    json: bool,
     #[command(flatten)]
-    planner: PlannerOption,
-    #[command(flatten)]
-    limits: Limits,
+    planning: PlanningOptions,
 }
 
 /// What is printed with `--json`.
@@ -116,12 +101,12 @@ struct Begun {
 impl Plan {
     pub(crate) fn run(&self, clock: Clock, quiet: bool) -> Result<Exit, Failure> {
         let interrupt = Interrupt::install()?;
-        let budget = self.limits.budget(clock, &interrupt);
+        let budget = self.planning.limits.budget(clock, &interrupt, None);
         let Begun { model, task, output, read, proposal } = self.begin_watched(clock, &budget, quiet)?;
         // Whoever waits for the answer need not wait for the memory to be freed.
         let mut proposal = match proposal {
             Ok(proposal) => ManuallyDrop::new(proposal),
-            Err(cut) => return say_stop(cut, self.json, clock.elapsed() - read),
+            Err(cut) => return say_stop(cut, self.planning.json, clock.elapsed() - read),
         };
         let mut out = anstream::stdout().lock();
         let mut plans: Vec<FoundPlan> = Vec::new();
@@ -134,7 +119,7 @@ impl Plan {
                 // What is found is safe, however the search ends.
                 self.write_plans(output.as_deref(), &plans, &proposal.model, &task)?;
             }
-            if !self.json {
+            if !self.planning.json {
                 let took = clock.elapsed() - read;
                 if let Err(failure) = self.print(&mut out, number, &plan, &proposal, &model, took) {
                     // Nobody reads on; the file is wanted all the same.
@@ -160,7 +145,7 @@ impl Plan {
         // Of a search that was ended early nothing can be said.
         let searched = matches!(last, Outcome::Unsolvable | Outcome::NoMorePlans);
         let explanation = (plans.is_empty() && searched).then(|| proposal.explain());
-        if self.json {
+        if self.planning.json {
             let answer = answer(&last, &plans, &proposal, explanation.as_ref(), clock.elapsed() - read);
             writeln!(out, "{}", serde_json::to_string_pretty(&answer).unwrap_or_default())?;
             return Ok(exit);
@@ -177,26 +162,25 @@ impl Plan {
     /// Reads, grounds, and searches for the first plan. A watchdog ends the program if reading takes more than is allowed;
     /// somebody else's planner is ended by whom it was started.
     fn begin_watched(&self, clock: Clock, budget: &Budget, quiet: bool) -> Result<Begun, Failure> {
-        let json = self.json;
-        let limits = if self.planner.is_given() { Limits::default() } else { self.limits };
-        let watchdog = Watchdog::start(clock, limits, move |stop| {
+        let json = self.planning.json;
+        let limits = if self.planning.planner.is_given() { Limits::default() } else { self.planning.limits.limits };
+        let last_words = move |stop| {
             // There is nobody left to tell if printing fails.
             say_stop(stop, json, clock.elapsed()).unwrap_or(stop.into())
-        });
-        let begun = self.begin(clock, budget, quiet);
-        watchdog.call_off();
-        begun
+        };
+        watched(clock, limits, last_words, || self.begin(clock, budget, quiet))
     }
 
     fn begin(&self, clock: Clock, budget: &Budget, quiet: bool) -> Result<Begun, Failure> {
-        keep_inputs(self.output.as_deref(), [&self.model, &self.task].into_iter().chain(&self.types))?;
-        let input = read_model_input(&self.model, self.types.as_ref())?;
+        let model = &self.planning.model;
+        keep_inputs(self.output.as_deref(), model.files().chain([&self.task]))?;
+        let input = model.read()?;
         let is_given = input.is_given();
         let default_output = is_given.then(|| PathBuf::from(DEFAULT_OUTPUT));
         let output = self.output.clone().or(default_output);
         let (model, task) = input.read_planning_task(&self.task, quiet)?;
         let read = clock.elapsed();
-        let options = self.options(self.imagine, is_given)?;
+        let options = self.options(is_given)?;
         let proposal = match propose(&model, &task, &Restrictions::default(), &options, budget) {
             Err(ProposeError::Stopped(stop)) => Err(stop),
             proposal => Ok(proposal?),
@@ -204,16 +188,10 @@ impl Plan {
         Ok(Begun { model, task, output, read, proposal })
     }
 
-    fn options(&self, imagine: bool, is_given: bool) -> Result<Options, Failure> {
-        let strategy = self.planner.strategy(is_given);
-        let plan = typelift::plan::Options { strategy, plans: self.plans as usize, ..Default::default() };
-        Ok(Options {
-            imagine: imagine.then(imagine::Options::default),
-            strict: !self.plain,
-            plan,
-            planner: self.planner.open()?,
-            ..Options::default()
-        })
+    fn options(&self, is_given: bool) -> Result<Options, Failure> {
+        let mut options = self.planning.agent_options(is_given)?;
+        options.plan.plans = self.plans as usize;
+        Ok(options)
     }
 
     fn print(
@@ -230,7 +208,7 @@ impl Plan {
             (_, true, _) => "better: ".to_owned(),
             (_, false, _) => format!("plan {number}: "),
         };
-        let expansions = match self.planner.is_given() {
+        let expansions = match self.planning.planner.is_given() {
             true => String::new(),
             false => format!(", {}", count(proposal.report().expansions, "expansion")),
         };
@@ -278,18 +256,19 @@ impl Plan {
         budget: &Budget,
     ) {
         let ending = match outcome {
-            Outcome::Stopped(Stop::Expansions) if self.planner.is_given() => "the planner gave up".to_owned(),
+            Outcome::Stopped(Stop::Expansions) if self.planning.planner.is_given() => "the planner gave up".to_owned(),
             outcome => ending(outcome),
         };
         let why = explanation.map_or(ending, ToString::to_string);
         for line in why.lines() {
             anstream::eprintln!("{BAD}no plan{BAD:#}: {line}");
         }
-        if self.imagine || *outcome != Outcome::Unsolvable {
+        if self.planning.model.imagine || *outcome != Outcome::Unsolvable {
             return;
         }
         let limited = Budget { expansions: Some(HINT_EXPANSIONS), ..budget.clone() };
-        let Ok(options) = self.options(true, false) else { return };
+        let Ok(options) = self.options(false) else { return };
+        let options = Options { imagine: Some(imagine::Options::default()), ..options };
         let imagined = propose(model, task, &Restrictions::default(), &options, &limited);
         if let Ok(Proposal { outcome: Outcome::Solved(plan), .. }) = imagined {
             anstream::eprintln!(

@@ -11,7 +11,6 @@ use std::time::Duration;
 use clap::ValueEnum;
 use typelift::agent::{Confirmation, Ending, Episode, Experience, Options, run};
 use typelift::bridge::Bridge;
-use typelift::imagine;
 use typelift::model::{ActionModel, Plan, State, Stop, Task};
 use typelift::world::{FileError, Parser, Reset, Scene, TaskFile, World, WorldError};
 use typelift_kitchen::Kitchen;
@@ -19,12 +18,13 @@ use typelift_kitchen::Kitchen;
 use crate::account::{broken_off, report, summary};
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::files::{TaskInput, keep_inputs, read_model_input, task_name};
+use crate::files::{TaskInput, keep_inputs, task_name};
 use crate::goal_check::GoalCheck;
-use crate::limits::{Clock, Interrupt, Limits, parse_duration, parse_whole};
+use crate::limits::{Clock, Interrupt};
 use crate::narrate::Narrator;
 use crate::plan_text::numbered_steps;
-use crate::planner_option::PlannerOption;
+use crate::planning_options::PlanningOptions;
+use crate::quantities::{parse_duration, parse_whole};
 use crate::style::HEAD;
 
 /// Expansions of one search, unless the user says otherwise: an agent that acts must not think for ever.
@@ -52,10 +52,8 @@ Exit codes: 0 every goal was seen to hold, 12 not every one, 31 bad input,
 35 the environment failed, 36 wrong usage, 38 the other planner failed, 39 its
 plan is not valid.")]
 pub(crate) struct Run {
-    /// The model, as `learn` wrote it, or a PDDL domain
-    model: PathBuf,
     /// Tasks, in order
-    #[arg(required = true, value_name = "TASK")]
+    #[arg(required = true, value_name = "TASK", index = 2)]
     tasks: Vec<PathBuf>,
     /// Act in the built-in kitchen simulator
     #[arg(long)]
@@ -66,17 +64,11 @@ pub(crate) struct Run {
     /// Wait so long for an answer: hello (10s), reset (60s), observe (10s), act (300s), close (2s)
     #[arg(long, value_name = "OP=TIME,…", value_delimiter = ',', value_parser = parse_timeout, requires = "env")]
     env_timeout: Vec<(Operation, Duration)>,
-    /// Add the types of this file to the model's
-    #[arg(long, value_name = "FILE")]
-    types: Option<PathBuf>,
     /// The seed that the environment is reset with, instead of the task's
     #[arg(long, value_name = "N", value_parser = parse_whole, allow_negative_numbers = true)]
     seed: Option<u64>,
-    /// Imagine actions for goals that cannot be reached with the learned ones
-    #[arg(long)]
-    imagine: bool,
     /// Ask before a plan is executed: only one that rests on imagined actions, or any [default: imagined]
-    #[arg(long, value_name = "WHICH", num_args = 0..=1, default_missing_value = "imagined")]
+    #[arg(long, value_name = "WHICH", num_args = 0..=1, require_equals = true, default_missing_value = "imagined")]
     confirm: Option<Which>,
     /// After a failure set the environment back and plan from the start, as the paper does
     #[arg(long)]
@@ -87,19 +79,11 @@ pub(crate) struct Run {
     /// Propose at most this many plans a task
     #[arg(long, value_name = "N", default_value_t = 12, value_parser = parse_whole, allow_negative_numbers = true)]
     max_proposals: u64,
-    /// Use an action also where some of its effects hold already
-    #[arg(long)]
-    plain: bool,
     /// Write everything that happens to this file, one JSON object a line
     #[arg(long, value_name = "FILE")]
     events: Option<PathBuf>,
-    /// Print one JSON object a task instead
-    #[arg(long)]
-    json: bool,
     #[command(flatten)]
-    planner: PlannerOption,
-    #[command(flatten)]
-    limits: Limits,
+    planning: PlanningOptions,
 }
 
 /// What an environment can be asked.
@@ -130,8 +114,8 @@ enum Which {
 impl Run {
     pub(crate) fn run(&self, clock: Clock, quiet: bool) -> Result<Exit, Failure> {
         let interrupt = Interrupt::install()?;
-        keep_inputs(self.events.as_deref(), self.tasks.iter().chain([&self.model]).chain(&self.types))?;
-        let input = read_model_input(&self.model, self.types.as_ref())?;
+        keep_inputs(self.events.as_deref(), self.tasks.iter().chain(self.planning.model.files()))?;
+        let input = self.planning.model.read()?;
         let (learned, parse) = (Arc::new(input.model().clone()), input.parse());
         let mut tasks = Vec::with_capacity(self.tasks.len());
         for path in &self.tasks {
@@ -153,7 +137,7 @@ impl Run {
             None => None,
             Some(path) => Some(BufWriter::new(File::create(path).map_err(|e| FileError::from_write(path, &e))?)),
         };
-        let mut narrator = Narrator::new(!quiet && !self.json, events);
+        let mut narrator = Narrator::new(!quiet && !self.planning.json, events);
         let mut experience = Experience::new();
         let mut out = anstream::stdout().lock();
         let mut all_solved = true;
@@ -163,7 +147,7 @@ impl Run {
                 anstream::eprintln!("{HEAD}{name}{HEAD:#}");
             }
             narrator.planning = Duration::ZERO;
-            let budget = self.limits.with_default_expansions(EXPANSIONS).budget(clock, &interrupt);
+            let budget = self.planning.limits.budget(clock, &interrupt, Some(EXPANSIONS));
             let mut episode =
                 Episode::new(Arc::clone(&model), task.goal.clone(), options.clone(), experience.clone(), budget)
                     .with_values(task.values);
@@ -178,7 +162,7 @@ impl Run {
             if interrupt.is_set() && ran.is_err() {
                 return Ok(Exit::Interrupted);
             }
-            if let (true, Err(error)) = (self.json, &ran) {
+            if let (true, Err(error)) = (self.planning.json, &ran) {
                 writeln!(out, "{}", broken_off(&name, &error.to_string()))?;
             }
             let account = ran.map_err(|error| Failure::from(error).in_file(path))?;
@@ -187,7 +171,7 @@ impl Run {
             }
             experience = episode.experience().clone();
             all_solved &= account.solved();
-            if self.json {
+            if self.planning.json {
                 let report = report(&name, &account, &experience, narrator.planning.as_secs_f64());
                 writeln!(out, "{}", serde_json::to_string(&report).unwrap_or_default())?;
             } else {
@@ -227,15 +211,11 @@ impl Run {
     }
 
     fn options(&self, is_given: bool) -> Result<Options, Failure> {
-        let strategy = self.planner.strategy(is_given);
         Ok(Options {
-            plan: typelift::plan::Options { strategy, ..Default::default() },
-            planner: self.planner.open()?,
-            imagine: self.imagine.then(imagine::Options::default),
-            strict: !self.plain,
             restart: self.restart,
             retries: self.retries,
             max_proposals: self.max_proposals,
+            ..self.planning.agent_options(is_given)?
         })
     }
 

@@ -1,21 +1,20 @@
 //! `typelift validate`.
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use serde::Serialize;
 use typelift::check::{Invalid, validate};
-use typelift::imagine::imagine;
-use typelift::model::{ActionModel, Budget, Task, strict};
 use typelift::pddl::{PddlError, PlanLine, read_plan};
-use typelift::plan::Restrictions;
 use typelift::world::{FileError, read_text};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::files::read_model_input;
+use crate::limits::{Clock, Interrupt, Limits};
 use crate::plan_text::calls_of_plan;
+use crate::planning_options::ModelArguments;
 use crate::style::{BAD, GOOD};
+use crate::watchdog::within;
 
 /// Say whether plans are valid, and what they cost
 #[derive(Debug, clap::Args)]
@@ -25,34 +24,29 @@ use crate::style::{BAD, GOOD};
 
 Prints what VAL prints. A plan file has one `(action object …)` a line.
 
-Exit codes: 0 every plan is valid, 12 not every one, 31 bad input, 34 the domain
-uses something that is not supported, 36 wrong usage.")]
+Exit codes: 0 every plan is valid, 12 not every one, 22 out of memory, 23 out of
+time, 31 bad input, 34 the domain uses something that is not supported, 36 wrong
+usage.")]
 pub(crate) struct Validate {
-    /// A PDDL domain, or a learned model
-    model: PathBuf,
+    #[command(flatten)]
+    model: ModelArguments,
     /// A problem of the domain, or a task
+    #[arg(index = 2)]
     task: PathBuf,
     /// The plans
-    #[arg(required = true, value_name = "PLAN")]
+    #[arg(required = true, value_name = "PLAN", index = 3)]
     plans: Vec<PathBuf>,
-    /// Add the types of this file to a learned model's
-    #[arg(long, value_name = "FILE")]
-    types: Option<PathBuf>,
-    /// Allow the actions that are imagined for the task
-    #[arg(long)]
-    imagine: bool,
-    /// Allow an action of a learned model also where some of its effects hold already
-    #[arg(long)]
-    plain: bool,
     /// Print one JSON object a plan instead
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    limits: Limits,
 }
 
 /// What is printed with `--json`.
 #[derive(Serialize)]
-struct Verdict {
-    plan: String,
+struct Verdict<'a> {
+    plan: &'a str,
     valid: bool,
     /// Steps that could be taken.
     steps: usize,
@@ -66,101 +60,109 @@ struct Verdict {
     reason: Option<String>,
 }
 
-/// A plan file that was read.
-struct PlanFile<'a> {
-    path: &'a Path,
+/// A plan that was read and held against the task.
+struct Checked {
+    /// The file, as the user names it.
+    plan: String,
     text: String,
     lines: Vec<PlanLine>,
+    /// Steps that could be taken.
+    steps: usize,
+    /// What it costs, if it is valid.
+    value: Option<u64>,
+    invalid: Option<Invalid>,
 }
 
 impl Validate {
-    pub(crate) fn run(&self, quiet: bool) -> Result<Exit, Failure> {
-        let input = read_model_input(&self.model, self.types.as_ref())?;
-        let (model, task) = input.read_planning_task(&self.task, quiet)?;
-        let model = match self.imagine {
-            true => imagine(&model, &task, &Restrictions::default(), &Default::default(), &Budget::unlimited())?
-                .added_to(&model),
-            false => model,
-        };
-        let model = if self.plain { model } else { strict(&model) };
-        let mut files = Vec::with_capacity(self.plans.len());
-        for path in &self.plans {
-            let text = read_text(path)?;
-            let lines = read_plan(&text).map_err(|error| FileError::from_pddl(path, &text, error))?;
-            files.push(PlanFile { path, text, lines });
-        }
+    pub(crate) fn run(&self, clock: Clock, quiet: bool) -> Result<Exit, Failure> {
+        let checked = within(clock, self.limits, || self.check(clock, quiet))?;
         let mut out = anstream::stdout().lock();
-        let mut verdicts = Vec::with_capacity(files.len());
-        for file in &files {
-            let verdict = self.judge(&mut out, file, &model, &task)?;
-            if self.json {
-                writeln!(out, "{}", serde_json::to_string(&verdict).unwrap_or_default())?;
+        if self.json {
+            for plan in &checked {
+                writeln!(out, "{}", serde_json::to_string(&plan.verdict()).unwrap_or_default())?;
             }
-            verdicts.push(verdict);
+        } else {
+            for plan in &checked {
+                plan.print(&mut out)?;
+            }
+            summarize(&mut out, &checked)?;
         }
-        if !self.json {
-            summarize(&mut out, &verdicts)?;
-        }
-        Ok(if verdicts.iter().all(|verdict| verdict.valid) { Exit::Success } else { Exit::NotAchieved })
+        Ok(if checked.iter().all(|plan| plan.invalid.is_none()) { Exit::Success } else { Exit::NotAchieved })
     }
 
-    fn judge(
-        &self,
-        out: &mut impl Write,
-        file: &PlanFile<'_>,
-        model: &ActionModel,
-        task: &Task,
-    ) -> Result<Verdict, Failure> {
-        let shown = file.path.display().to_string();
-        if !self.json {
-            writeln!(out, "Checking plan: {shown}")?;
-        }
-        let calls = calls_of_plan(&file.lines, model, &task.init)?;
-        let (steps, value, invalid) = match validate(model, task, &calls) {
-            Ok(valid) => (valid.plan.len(), Some(valid.plan.cost()), None),
-            Err((taken, invalid)) => (taken.len(), None, Some(invalid)),
+    /// Reads everything, and takes the plans' steps.
+    fn check(&self, clock: Clock, quiet: bool) -> Result<Vec<Checked>, Failure> {
+        let (model, task) = self.model.read()?.read_planning_task(&self.task, quiet)?;
+        let budget = self.limits.budget(clock, &Interrupt::default());
+        let model = self.model.as_used(model, Some(&task), &budget)?;
+        let read = |path: &PathBuf| -> Result<_, Failure> {
+            let text = read_text(path)?;
+            let lines = read_plan(&text).map_err(|error| FileError::from_pddl(path, &text, error))?;
+            Ok((path.display().to_string(), text, lines))
         };
-        if !self.json {
-            print_verdict(out, file, value, steps, invalid.as_ref())?;
-        }
-        let failed = invalid.as_ref().filter(|invalid| !matches!(invalid, Invalid::Goal { .. })).map(|_| steps + 1);
-        let line = failed.map(|step| PddlError::new(&file.text, file.lines[step - 1].span, "").position.line);
-        let reason = invalid.map(|invalid| invalid.to_string());
-        Ok(Verdict { plan: shown, valid: reason.is_none(), steps, value, failed_step: failed, line, reason })
+        let files = self.plans.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+        let check = |(plan, text, lines): (String, String, Vec<PlanLine>)| -> Result<_, Failure> {
+            let calls = calls_of_plan(&lines, &model, &task.init)?;
+            let (steps, value, invalid) = match validate(&model, &task, &calls) {
+                Ok(valid) => (valid.plan.len(), Some(valid.plan.cost()), None),
+                Err((taken, invalid)) => (taken.len(), None, Some(invalid)),
+            };
+            Ok(Checked { plan, text, lines, steps, value, invalid })
+        };
+        files.into_iter().map(check).collect()
     }
 }
 
-/// What VAL prints, with the reason.
-fn print_verdict(
-    out: &mut impl Write,
-    file: &PlanFile<'_>,
-    value: Option<u64>,
-    steps: usize,
-    invalid: Option<&Invalid>,
-) -> Result<(), Failure> {
-    match invalid {
-        None => {
-            writeln!(out, "Plan executed successfully - checking goal\n{GOOD}Plan valid{GOOD:#}")?;
-            writeln!(out, "Final value: {}", value.unwrap_or_default())?;
-        }
-        Some(invalid @ Invalid::Goal { .. }) => {
-            writeln!(out, "Plan executed successfully - checking goal\n{BAD}Goal not satisfied{BAD:#}")?;
-            writeln!(out, "Plan invalid: {invalid}")?;
-        }
-        Some(invalid) => {
-            writeln!(out, "{BAD}Plan failed to execute{BAD:#}")?;
-            let error = PddlError::new(&file.text, file.lines[steps].span, invalid.to_string());
-            write!(out, "{}", error.render(&file.path.display().to_string(), &file.text))?;
-            writeln!(out, "Plan invalid")?;
+impl Checked {
+    /// The step that could not be taken, if it is not the goal that is missed.
+    fn failed_step(&self) -> Option<usize> {
+        self.invalid.as_ref().filter(|invalid| !matches!(invalid, Invalid::Goal { .. })).map(|_| self.steps + 1)
+    }
+
+    /// What is wrong, at the line of the step that could not be taken.
+    fn error_at(&self, step: usize, reason: &str) -> PddlError {
+        PddlError::new(&self.text, self.lines[step - 1].span, reason)
+    }
+
+    fn verdict(&self) -> Verdict<'_> {
+        let failed_step = self.failed_step();
+        Verdict {
+            plan: &self.plan,
+            valid: self.invalid.is_none(),
+            steps: self.steps,
+            value: self.value,
+            failed_step,
+            line: failed_step.map(|step| self.error_at(step, "").position.line),
+            reason: self.invalid.as_ref().map(Invalid::to_string),
         }
     }
-    Ok(())
+
+    /// What VAL prints, with the reason.
+    fn print(&self, out: &mut impl Write) -> Result<(), Failure> {
+        writeln!(out, "Checking plan: {}", self.plan)?;
+        match (&self.invalid, self.failed_step()) {
+            (None, _) => {
+                writeln!(out, "Plan executed successfully - checking goal\n{GOOD}Plan valid{GOOD:#}")?;
+                writeln!(out, "Final value: {}", self.value.unwrap_or_default())?;
+            }
+            (Some(invalid), None) => {
+                writeln!(out, "Plan executed successfully - checking goal\n{BAD}Goal not satisfied{BAD:#}")?;
+                writeln!(out, "Plan invalid: {invalid}")?;
+            }
+            (Some(invalid), Some(step)) => {
+                writeln!(out, "{BAD}Plan failed to execute{BAD:#}")?;
+                write!(out, "{}", self.error_at(step, &invalid.to_string()).render(&self.plan, &self.text))?;
+                writeln!(out, "Plan invalid")?;
+            }
+        }
+        Ok(())
+    }
 }
 
 /// VAL's closing lists.
-fn summarize(out: &mut impl Write, verdicts: &[Verdict]) -> Result<(), Failure> {
+fn summarize(out: &mut impl Write, checked: &[Checked]) -> Result<(), Failure> {
     let mut valid: Vec<(u64, &str)> =
-        verdicts.iter().filter_map(|verdict| Some((verdict.value?, verdict.plan.as_str()))).collect();
+        checked.iter().filter_map(|plan| Some((plan.value?, plan.plan.as_str()))).collect();
     valid.sort_unstable();
     if !valid.is_empty() {
         writeln!(out, "\nSuccessful plans:")?;
@@ -172,7 +174,8 @@ fn summarize(out: &mut impl Write, verdicts: &[Verdict]) -> Result<(), Failure> 
             }
         }
     }
-    let failed: Vec<&str> = verdicts.iter().filter(|v| !v.valid).map(|v| v.plan.as_str()).collect();
+    let failed: Vec<&str> =
+        checked.iter().filter(|plan| plan.invalid.is_some()).map(|plan| plan.plan.as_str()).collect();
     if !failed.is_empty() {
         writeln!(out, "\nFailed plans:\n {}", failed.join("\n "))?;
     }

@@ -9,6 +9,7 @@ use std::time::Duration;
 use typelift::model::Stop;
 
 use crate::exit::Exit;
+use crate::failure::Failure;
 use crate::limits::{Clock, Limits, holds_more_than};
 
 /// What a time limit is overstepped by at most: this, and a twentieth.
@@ -17,16 +18,40 @@ const GRACE: Duration = Duration::from_millis(50);
 /// How often it is asked how much memory is held.
 const INTERVAL: Duration = Duration::from_millis(5);
 
+/// Does some work. If that takes more than is allowed, `last_words` says so and the program ends.
+pub(crate) fn watched<T>(
+    clock: Clock,
+    limits: Limits,
+    last_words: impl FnOnce(Stop) -> Exit + Send + 'static,
+    work: impl FnOnce() -> T,
+) -> T {
+    let watchdog = Watchdog::start(clock, limits, last_words);
+    let done = work();
+    watchdog.call_off();
+    done
+}
+
+/// Does some work, all of which is in vain if it takes more than is allowed.
+pub(crate) fn within<T>(clock: Clock, limits: Limits, work: impl FnOnce() -> Result<T, Failure>) -> Result<T, Failure> {
+    let stopped = |stop: Stop| Failure::new(stop.into(), stop);
+    let done = watched(clock, limits, move |stop| stopped(stop).report(), work)?;
+    // The watchdog leaves some grace.
+    match limits.exceeded(clock) {
+        Some(stop) => Err(stopped(stop)),
+        None => Ok(done),
+    }
+}
+
 /// Watches until it is called off.
-#[derive(Debug, Default, Clone)]
-pub(crate) struct Watchdog {
+#[derive(Debug, Default)]
+struct Watchdog {
     /// Whether one of the two has gone ahead: the watchdog or whom it watches.
     decided: Arc<AtomicBool>,
 }
 
 impl Watchdog {
     /// Ends the program soon after a limit is reached; before, `last_words` says why.
-    pub(crate) fn start(clock: Clock, limits: Limits, last_words: impl FnOnce(Stop) -> Exit + Send + 'static) -> Self {
+    fn start(clock: Clock, limits: Limits, last_words: impl FnOnce(Stop) -> Exit + Send + 'static) -> Self {
         let watchdog = Self::default();
         if limits.time().is_none() && limits.bytes().is_none() {
             return watchdog;
@@ -42,7 +67,7 @@ impl Watchdog {
     }
 
     /// From now on the program ends by itself. Does not return if it is being ended.
-    pub(crate) fn call_off(&self) {
+    fn call_off(&self) {
         if self.decided.swap(true, Ordering::SeqCst) {
             loop {
                 thread::park();

@@ -28,6 +28,15 @@ fn who_is_asked_about_what() {
 }
 
 #[test]
+fn the_option_takes_nothing_that_stands_behind_it() {
+    let folder = Folder::kitchen();
+    let ended = folder.run_with_input("run --confirm kitchen.json K/tasks/T4.1.json --imagine --kitchen", "s\n");
+    assert!(ended.code == 12 && ended.err.contains("execute?"), "{ended}");
+    let between = folder.run("run kitchen.json --confirm K/tasks/T1.1.json --kitchen");
+    assert!(between.code == 0 && !between.err.contains("execute?"), "{between}");
+}
+
+#[test]
 fn a_rejected_plan_is_not_executed() {
     let folder = Folder::kitchen();
     let ended = folder.run_with_input("run kitchen.json K/tasks/T1.1.json --kitchen --confirm=all --json", "s\n");

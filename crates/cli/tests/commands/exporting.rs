@@ -65,7 +65,7 @@ fn a_model_alone_and_without_strictness() {
     let folder = Folder::kitchen();
     insta::assert_snapshot!("export-alone", folder.run("export kitchen.json -o alone"));
     assert_eq!(written(&folder, "alone"), ["domain.pddl", "names.json"]);
-    folder.run("export kitchen.json --plain --level adl -o deep/er/plain").succeeds();
+    folder.run("export kitchen.json --not-strict --level adl -o deep/er/plain").succeeds();
     let plain = folder.read("deep/er/plain/domain.pddl");
     assert!(folder.read("alone/domain.pddl").contains("(not (holding_holds ?x0 ?x2))\n      (movable"));
     assert!(
@@ -73,6 +73,30 @@ fn a_model_alone_and_without_strictness() {
         "inequality is left"
     );
     assert_eq!(plain, folder.run("show kitchen.json --pddl").out, "the same exporter");
+    folder.run("export kitchen.json --plain -o older").succeeds();
+    assert_eq!(plain, folder.read("older/domain.pddl"), "the option's former name");
+}
+
+#[test]
+fn the_domain_has_the_name_that_it_is_given() {
+    let folder = Folder::kitchen();
+    folder.run("export kitchen.json K/tasks/T1.1.json --name our_Kitchen-2 -o named").succeeds();
+    assert!(folder.read("named/domain.pddl").contains("(define (domain our_kitchen-2)\n"));
+    assert!(folder.read("named/problem.pddl").contains("(:domain our_kitchen-2)\n"));
+    folder.run("pddl check named/domain.pddl named/problem.pddl").succeeds();
+}
+
+#[test]
+fn what_was_written_as_data() {
+    let folder = Folder::kitchen();
+    let ended = folder.run("export kitchen.json K/tasks/T4.1.json --imagine --json -o apple");
+    ended.succeeds();
+    let report: Value = serde_json::from_str(&ended.out).expect("JSON");
+    assert_eq!(report["files"], serde_json::json!(["apple/domain.pddl", "apple/problem.pddl", "apple/names.json"]));
+    assert_eq!(report["imagined_actions"], 1);
+    let alone = folder.run("export kitchen.json --json -o alone");
+    let report: Value = serde_json::from_str(&alone.out).expect("JSON");
+    assert_eq!((&report["actions"], &report["objects"]), (&13.into(), &Value::Null));
 }
 
 #[test]

@@ -10,7 +10,9 @@ fn every_command_has_help() {
         "learn",
         "show",
         "plan",
+        "export",
         "run",
+        "validate",
         "pddl",
         "pddl check",
         "pddl format",
@@ -26,6 +28,8 @@ fn every_command_has_help() {
         "lab hierarchy",
         "lab growth",
         "lab report",
+        "completions",
+        "man",
     ];
     let folder = Folder::new();
     for command in commands {

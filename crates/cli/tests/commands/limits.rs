@@ -50,6 +50,23 @@ fn each_limit_ends_a_run() {
 }
 
 #[test]
+fn each_command_that_may_take_long_has_limits() {
+    let folder = Folder::kitchen();
+    folder.run("plan kitchen.json K/tasks/T1.1.json -o lettuce.plan").succeeds();
+    for command in [
+        "learn K/demos --types K/types.pddl -o m.json",
+        "export kitchen.json K/tasks/T1.1.json -o out",
+        "validate kitchen.json K/tasks/T1.1.json lettuce.plan",
+    ] {
+        let late = folder.refuses(23, &format!("{command} --time-limit 0"));
+        assert_eq!(late.err, "error: out of time\n", "{command}");
+        let large = folder.refuses(22, &format!("{command} --memory-limit 1M"));
+        assert_eq!(large.err, "error: out of memory\n", "{command}");
+        folder.run(&format!("{command} --time-limit 1m --memory-limit 2GB")).succeeds();
+    }
+}
+
+#[test]
 fn limits_cover_grounding() {
     let folder = Folder::kitchen();
     // With thirty parameters that nothing restricts, grounding alone would take for ever.
@@ -60,7 +77,7 @@ fn limits_cover_grounding() {
     let ended = folder.run("plan wide.json K/tasks/T1.1.json --time-limit 200ms");
     assert_eq!((ended.code, ended.err.as_str()), (23, "no plan: out of time before the search\n"), "{ended}");
     // So does a limit of memory.
-    let ended = folder.run("plan wide.json K/tasks/T1.1.json --memory-limit 60");
+    let ended = folder.run("plan wide.json K/tasks/T1.1.json --memory-limit 60M");
     assert_eq!((ended.code, ended.err.as_str()), (22, "no plan: out of memory before the search\n"), "{ended}");
 }
 

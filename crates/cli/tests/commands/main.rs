@@ -20,6 +20,7 @@ mod pddl_files;
 mod planners;
 mod planning;
 mod recorded;
+mod shell;
 mod simulator;
 mod strange;
 mod usage;

@@ -1,0 +1,88 @@
+//! What several commands are asked alike: `plan`, `run`, `export` and `validate` about the model, `plan` and `run` about
+//! planning.
+
+use std::path::PathBuf;
+
+use typelift::agent::Options;
+use typelift::imagine::{self, imagine};
+use typelift::model::{ActionModel, Budget, Task, strict};
+use typelift::plan::Restrictions;
+
+use crate::failure::Failure;
+use crate::files::{ModelInput, read_model_input};
+use crate::limits::SearchLimits;
+use crate::planner_option::PlannerOption;
+
+/// A model, and how it may be used.
+#[derive(Debug, Clone, clap::Args)]
+pub(crate) struct ModelArguments {
+    /// The model, as `learn` wrote it, or a PDDL domain
+    #[arg(index = 1)]
+    pub(crate) model: PathBuf,
+    /// Add the types of this file to a learned model's
+    #[arg(long, value_name = "FILE")]
+    types: Option<PathBuf>,
+    /// Imagine actions for goals that cannot be reached with the learned ones
+    #[arg(long)]
+    pub(crate) imagine: bool,
+    /// Use a learned action also where some of its effects hold already
+    #[arg(long, alias = "plain")]
+    not_strict: bool,
+}
+
+impl ModelArguments {
+    /// Reads the model.
+    pub(crate) fn read(&self) -> Result<ModelInput, Failure> {
+        read_model_input(&self.model, self.types.as_ref())
+    }
+
+    /// The files that are read.
+    pub(crate) fn files(&self) -> impl Iterator<Item = &PathBuf> {
+        [&self.model].into_iter().chain(&self.types)
+    }
+
+    /// The model as it may be used for this task: with what is imagined for it if that is allowed, and strict unless that
+    /// is not wanted.
+    pub(crate) fn as_used(
+        &self,
+        model: ActionModel,
+        task: Option<&Task>,
+        budget: &Budget,
+    ) -> Result<ActionModel, Failure> {
+        let model = match task {
+            Some(task) if self.imagine => {
+                let nothing_failed = Restrictions::default();
+                imagine(&model, task, &nothing_failed, &imagine::Options::default(), budget)?.added_to(&model)
+            }
+            _ => model,
+        };
+        Ok(if self.not_strict { model } else { strict(&model) })
+    }
+}
+
+/// Which model plans, how, and within which limits.
+#[derive(Debug, Clone, clap::Args)]
+pub(crate) struct PlanningOptions {
+    #[command(flatten)]
+    pub(crate) model: ModelArguments,
+    /// Print JSON instead: one object a task
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) planner: PlannerOption,
+    #[command(flatten)]
+    pub(crate) limits: SearchLimits,
+}
+
+impl PlanningOptions {
+    /// How plans are made, with a model that was given as PDDL or one that was learned.
+    pub(crate) fn agent_options(&self, is_given: bool) -> Result<Options, Failure> {
+        Ok(Options {
+            imagine: self.model.imagine.then(imagine::Options::default),
+            strict: !self.model.not_strict,
+            plan: typelift::plan::Options { strategy: self.planner.strategy(is_given), ..Default::default() },
+            planner: self.planner.open()?,
+            ..Options::default()
+        })
+    }
+}
