@@ -2,7 +2,6 @@
 
 pub mod readers;
 pub mod seen;
-pub mod strips;
 mod worlds;
 
 use std::collections::BTreeSet;

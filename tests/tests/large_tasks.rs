@@ -15,7 +15,7 @@ use typelift::model::{
 };
 use typelift::plan::{Explanation, Options, Outcome, Planner, Restrictions, Strategy};
 use typelift_kitchen::tasks;
-use typelift_tests::strips::{Cheapest, Tiny, all_instances, cheapest, tiny};
+use typelift_model::testing::{Cheapest, Tiny, all_instances, cheapest, tiny};
 use typelift_tests::{kitchen_model, planning_task};
 
 /// So many times everything but the agent; only the first are what the task is about.

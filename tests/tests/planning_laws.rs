@@ -17,7 +17,7 @@ use typelift::plan::{
     self, FactId, GroundTask, Op, Outcome, Planner, Restrictions, Strategy, TieOrder, ground, landmark_sequences,
 };
 use typelift_kitchen::{KitchenTask, tasks};
-use typelift_tests::strips::{
+use typelift_model::testing::{
     Cheapest, Instance, Tiny, all_instances, cheapest, cheapest_without, reachable_atoms, reachable_instances, tiny,
 };
 use typelift_tests::{Variant, kitchen_model, planning_task};

@@ -89,7 +89,7 @@ proptest! {
 
     #[test]
     fn plans_of_tiny_problems_are_the_same(
-        tiny in typelift_tests::strips::tiny(2),
+        tiny in typelift_model::testing::tiny(2),
         bans in prop::collection::vec(any::<usize>(), 0..4),
         excluded in prop::collection::vec((any::<usize>(), any::<usize>()), 0..3),
     ) {

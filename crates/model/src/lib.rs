@@ -34,6 +34,8 @@ mod state;
 mod strict;
 mod symbol;
 mod task;
+#[cfg(feature = "testing")]
+pub mod testing;
 mod unify;
 mod unknown;
 

@@ -37,6 +37,8 @@ mod search;
 mod shuffle;
 mod strategy;
 mod symmetry;
+#[cfg(test)]
+mod worked;
 
 pub use explain::{Explanation, Misfit, Nearest, UnreachableGoal};
 pub use external::{ExternalFailure, ExternalPlanner};

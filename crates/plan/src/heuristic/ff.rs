@@ -207,3 +207,62 @@ impl Heuristic for Ff {
         &self.helpful
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::heuristic::CostMeasure;
+    use crate::poll::Poll;
+    use crate::worked::Worked;
+    use typelift_model::Budget;
+
+    fn ff(worked: &Worked) -> Ff {
+        let costs = CostMeasure::Plain.of(&worked.fdr);
+        let no_limit = Budget::unlimited();
+        let undominated = Undominated::of(&worked.relaxation, &costs, &mut Poll::new(&no_limit)).expect("no limits");
+        Ff::new(Arc::clone(&worked.relaxation), Arc::new(undominated), costs)
+    }
+
+    #[test]
+    fn what_two_goals_share_is_paid_once() {
+        // The additive heuristic's costs: c by get 3, a by make-a 3 + 1 = 4, b by make-b 3 + 2 = 5 rather than by buy-b, 6.
+        // Those supporters together are the relaxed plan: get, make-a, make-b, which cost 3 + 1 + 2.
+        let worked = Worked::new(
+            "init: p
+             goal: a b
+             get cost 3: p -> c !p
+             get-dear cost 4: p -> c !p
+             make-a: c -> a !c
+             make-b cost 2: c -> b !c
+             buy-b cost 6: p -> b !p",
+        );
+        let mut ff = ff(&worked);
+        assert_eq!(worked.estimate(&mut ff, "p"), Some(6));
+        // Of the relaxed plan only get can be done at once, and get-dear achieves the same at once. Buying b does not count,
+        // although b is needed: the relaxed plan does not achieve b at once.
+        assert_eq!(worked.names(ff.preferred()), ["get"]);
+        assert_eq!(worked.names(ff.helpful()), ["get", "get-dear"]);
+        // With c there both are made of it, for 1 + 2; with a there too only b is left, for 2.
+        assert_eq!(worked.estimate(&mut ff, "c"), Some(3));
+        assert_eq!(worked.names(ff.preferred()), ["make-a", "make-b"]);
+        assert_eq!(worked.estimate(&mut ff, "a c"), Some(2));
+        assert_eq!(worked.names(ff.preferred()), ["make-b"]);
+        assert_eq!(worked.estimate(&mut ff, "a b"), Some(0));
+        // Nothing makes p or c.
+        assert_eq!(worked.estimate(&mut ff, "a"), None);
+    }
+
+    #[test]
+    fn an_action_with_two_conditional_effects_is_paid_once() {
+        // Painting has two relaxed actions, one for each effect, but is one action of cost 4. What must not hold is made
+        // false by drying, for 1.
+        let worked = Worked::new(
+            "init: wall door wet
+             goal: red green !wet
+             paint cost 4: -> wall=>red door=>green
+             dry: wet -> !wet",
+        );
+        assert_eq!(worked.estimate(&mut ff(&worked), "wall door wet"), Some(4 + 1));
+        assert_eq!(worked.estimate(&mut ff(&worked), "wall door red green wet"), Some(1));
+    }
+}

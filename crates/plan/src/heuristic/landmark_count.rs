@@ -86,3 +86,50 @@ impl Heuristic for LandmarkCount {
         Some(future.iter().map(|word| word.count_ones()).sum())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::poll::Poll;
+    use crate::worked::Worked;
+    use typelift_model::Budget;
+
+    /// The counts along a path, the initial state's first.
+    fn counts(worked: &Worked, path: &[&str]) -> Vec<Option<u32>> {
+        let no_limit = Budget::unlimited();
+        let mut poll = Poll::new(&no_limit);
+        let graph = LandmarkGraph::new(&worked.ground, &worked.fdr, &worked.relaxation, &mut poll).expect("no limits");
+        let mut count = LandmarkCount::new(Arc::new(graph), &worked.fdr, &worked.relaxation);
+        worked.estimates(&mut count, path)
+    }
+
+    #[test]
+    fn what_is_past_may_be_needed_again() {
+        // Landmarks: at(shop), bread, and at(home), which holds.
+        let worked = Worked::new(
+            "init: at(home)
+             goal: at(home) bread
+             go: at(home) -> at(shop) !at(home)
+             back: at(shop) -> at(home) !at(shop)
+             buy: at(shop) -> bread",
+        );
+        // At the shop at(home) takes the place of at(shop): it is a goal, and does not hold.
+        assert_eq!(counts(&worked, &["go", "buy", "back"]), [2, 2, 1, 0].map(Some));
+        // Home without bread, at(shop) is past, but has to hold again immediately before bread.
+        assert_eq!(counts(&worked, &["go", "back"]), [2, 2, 2].map(Some));
+    }
+
+    #[test]
+    fn what_is_better_made_true_later_is_in_the_future() {
+        // Cooking undoes tidiness, and both are asked: tidiness is reasonably made true after the meal.
+        let worked = Worked::new(
+            "init: hungry
+             goal: tidy meal
+             tidy-up: -> tidy
+             cook: hungry -> meal !tidy",
+        );
+        assert_eq!(counts(&worked, &["cook", "tidy-up"]), [2, 1, 0].map(Some));
+        // Tidying up first gains nothing.
+        assert_eq!(counts(&worked, &["tidy-up", "cook", "tidy-up"]), [2, 2, 1, 0].map(Some));
+    }
+}

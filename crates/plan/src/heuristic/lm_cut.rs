@@ -237,3 +237,60 @@ impl Heuristic for LmCut {
         Some(total)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::worked::Worked;
+
+    fn lm_cut(worked: &Worked) -> LmCut {
+        LmCut::new(&worked.fdr, Arc::clone(&worked.relaxation))
+    }
+
+    #[test]
+    fn three_cuts_by_hand() {
+        // h^max of i 0, a 4, b 3, c 3, d 3 + 2 = 5, g 5.
+        // 1. The last action's dearest precondition is d. Only red leads to it: 2, and red is free.
+        // 2. Now d is 3 and a 4, so that a is the dearest. Blue and green lead to it: 4, and green has 1 left.
+        // 3. Now a and b are free, c costs green's 1 and so do d and g. Green, 1, and black, 3, lead to c: 1.
+        // Then the goal is free. 2 + 4 + 1; a cheapest relaxed plan, blue, black and red, costs 9.
+        let worked = Worked::new(
+            "init: i
+             goal: g
+             blue cost 4: i -> a b
+             green cost 5: i -> a c
+             black cost 3: i -> b c
+             red cost 2: b c -> d
+             last cost 0: a d -> g",
+        );
+        let mut lm_cut = lm_cut(&worked);
+        assert_eq!(worked.estimate(&mut lm_cut, "i"), Some(7));
+        // With a and b there: red, 2, then green or black for c, 3.
+        assert_eq!(worked.estimate(&mut lm_cut, "i a b"), Some(5));
+        assert_eq!(worked.estimate(&mut lm_cut, "i a d"), Some(0));
+    }
+
+    #[test]
+    fn a_cut_through_one_part_of_an_action_pays_for_all_of_it() {
+        // One painting does both: were each effect's part paid for itself, it would be 8, more than a plan costs.
+        let worked = Worked::new(
+            "init: wall door
+             goal: red green
+             paint cost 4: -> wall=>red door=>green",
+        );
+        assert_eq!(worked.estimate(&mut lm_cut(&worked), "wall door"), Some(4));
+        assert_eq!(worked.estimate(&mut lm_cut(&worked), "wall door red"), Some(4));
+    }
+
+    #[test]
+    fn a_dead_end_is_one() {
+        let worked = Worked::new(
+            "init: a
+             goal: b
+             do: a -> b !a
+             drop: a -> c !a",
+        );
+        assert_eq!(worked.estimate(&mut lm_cut(&worked), "a"), Some(1));
+        assert_eq!(worked.estimate(&mut lm_cut(&worked), "c"), None);
+    }
+}

@@ -53,3 +53,32 @@ impl Heuristic for OrderedLandmarks {
         Some(left + u32::from(!task.actions.touches_goal[action as usize]) + u32::from(!passed))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::landmark::sequences;
+    use crate::worked::Worked;
+    use typelift_model::Budget;
+
+    #[test]
+    fn landmarks_left_and_penalties() {
+        // The egg's landmarks are held(egg), then boiled(egg): two are left at first. Whoever passes none is charged 1, and so
+        // is what has nothing to do with the egg.
+        let worked = Worked::new(
+            "init: in(egg) cold
+             goal: boiled(egg)
+             take(?0): in(?0) -> held(?0) !in(?0)
+             drop(?0): held(?0) -> in(?0) !held(?0)
+             boil(?0): held(?0) hot -> boiled(?0)
+             heat: cold -> hot !cold",
+        );
+        let landmarks = sequences(&worked.ground, &worked.fdr, &Budget::unlimited()).expect("no limits");
+        let mut ordered = OrderedLandmarks::new(landmarks);
+        let mut along = |path: &[&str]| worked.estimates(&mut ordered, path).into_iter().flatten().collect::<Vec<_>>();
+        // heat: 2 left, none passed, not about the egg. take: 1 left. boil: nothing.
+        assert_eq!(along(&["heat", "take(egg)", "boil(egg)"]), [2, 4, 1, 0]);
+        // What is passed stays passed: after dropping the egg 1 is left, and none was passed; the same after taking it again.
+        assert_eq!(along(&["take(egg)", "drop(egg)", "take(egg)"]), [2, 1, 2, 2]);
+    }
+}

@@ -1,0 +1,13 @@
+//! For tests, here and in crates that import this one (feature `testing`): random problems, problems in a few lines of
+//! text, and what enumeration says of them.
+//!
+//! What is wrong with a text is told by a panic: whoever reads it is writing the test.
+
+mod enumerate;
+mod tiny;
+mod written;
+
+pub use enumerate::{
+    Cheapest, Instance, Signed, all_instances, apply, cheapest, cheapest_without, reachable_atoms, reachable_instances,
+};
+pub use tiny::{Tiny, tiny};
