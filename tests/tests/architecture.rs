@@ -28,14 +28,17 @@ const ALLOWED: [(&str, &[&str]); 13] = [
     ("cli", &["typelift", "kitchen", "lab"]),
 ];
 
-/// Our crates among the dependencies of a manifest, its development dependencies included.
-fn dependencies(manifest: &str) -> Vec<String> {
+/// What its tests may depend on besides: the judge of plans is no part of the planner, and judges its tests.
+const ALLOWED_IN_TESTS: [(&str, &[&str]); 1] = [("plan", &["check"])];
+
+/// Our crates in the sections of a manifest that are called so, for all platforms or for one.
+fn dependencies(manifest: &str, called: &str) -> Vec<String> {
     let mut section = "";
     let mut found = Vec::new();
     for line in manifest.lines() {
         if let Some(header) = line.trim().strip_prefix('[') {
-            section = header.trim_end_matches(']');
-        } else if section.ends_with("dependencies")
+            section = header.trim_end_matches(']').rsplit('.').next().unwrap_or_default();
+        } else if section == called
             && let Some(name) = line.split(['.', '=', ' ']).next()
         {
             match name.strip_prefix("typelift-") {
@@ -60,8 +63,16 @@ fn imports_go_one_way() {
     known.sort_unstable();
     assert_eq!(rooms, known, "a new room needs a line in the table of allowed imports");
     for (name, allowed) in ALLOWED {
-        for dependency in dependencies(&read(&crates.join(name).join("Cargo.toml"))) {
+        let manifest = read(&crates.join(name).join("Cargo.toml"));
+        for dependency in
+            [dependencies(&manifest, "dependencies"), dependencies(&manifest, "build-dependencies")].concat()
+        {
             assert!(allowed.contains(&dependency.as_str()), "{name} may not depend on {dependency}");
+        }
+        let in_tests = ALLOWED_IN_TESTS.iter().find(|(room, _)| *room == name).map_or(&[][..], |(_, besides)| besides);
+        for dependency in dependencies(&manifest, "dev-dependencies") {
+            let known = allowed.contains(&dependency.as_str()) || in_tests.contains(&dependency.as_str());
+            assert!(known, "tests of {name} may not depend on {dependency}");
         }
     }
 }

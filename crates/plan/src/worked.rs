@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use typelift_model::testing::Tiny;
-use typelift_model::{Budget, State};
+use typelift_model::{Budget, State, Symbol};
 
 use crate::Restrictions;
 use crate::fdr::{ActionIndex, Fdr};
@@ -73,7 +73,7 @@ impl Worked {
 
     fn name(&self, action: ActionIndex) -> String {
         let step = self.ground.step(self.fdr.actions.ids[action as usize]);
-        let objects: Vec<&str> = step.objects.iter().map(|object| object.as_str()).collect();
+        let objects: Vec<&str> = step.objects.iter().map(Symbol::as_str).collect();
         if objects.is_empty() { step.action.to_string() } else { format!("{}({})", step.action, objects.join(",")) }
     }
 

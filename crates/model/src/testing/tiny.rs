@@ -1,13 +1,11 @@
 //! Tiny random planning problems: conditional effects, constants, negations, types, costs.
 
-use std::collections::BTreeSet;
-
 use proptest::prelude::*;
 
 use super::enumerate::{all_instances, reachable_in_order};
 use crate::{
-    ActionModel, ActionSchema, Atom, Effect, Goal, GroundAtom, Hierarchy, LiftedCall, Literal, Parameter, Provenance, State,
-    Symbol, Task, Term,
+    ActionModel, ActionSchema, Atom, Effect, Goal, GroundAtom, Hierarchy, LiftedCall, Literal, Parameter, Provenance,
+    State, Symbol, Task, Term,
 };
 
 /// Predicates with their numbers of arguments.

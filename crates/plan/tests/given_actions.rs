@@ -1,10 +1,10 @@
 //! Actions that nobody learned, as a PDDL domain gives them: conditions in their effects, parameters that may be equal.
 
-use typelift::model::{
+use typelift_model::{
     ActionModel, ActionSchema, Budget, Effect, GroundAtom, Hierarchy, LiftedAtom, LiftedCall, Literal, Parameter,
     Provenance, State, Task, Term,
 };
-use typelift::plan::{Ban, Outcome, Planner, Restrictions};
+use typelift_plan::{Ban, Outcome, Planner, Restrictions};
 
 fn lifted(text: &str) -> LiftedAtom {
     LiftedAtom::parse(text).expect("an atom")

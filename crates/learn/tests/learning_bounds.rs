@@ -2,11 +2,11 @@
 
 use std::collections::BTreeSet;
 
-use typelift::learn::observe;
-use typelift::model::{
+use typelift_learn::observe;
+use typelift_model::{
     Evidence, GroundAtom, GroundCall, Hierarchy, MOST_PARAMETERS, Pattern, State, Symbol, Unexplained, Unknown,
 };
-use typelift::world::{TraceAction, Transition};
+use typelift_world::{TraceAction, Transition};
 
 /// `look`, after which `n` entities called by `name` are seen; before, what `before` says of them holds.
 fn look(n: usize, name: impl Fn(usize) -> String, before: impl Fn(usize) -> Vec<String>) -> (Evidence, State) {

@@ -4,9 +4,9 @@
 use std::collections::BTreeSet;
 
 use proptest::prelude::*;
-use typelift::model::{ActionModel, GroundAtom, Task, strict};
-use typelift::pddl::{ExportOptions, Exported, Level, compile_domain, compile_problem, export};
 use typelift_model::testing::{Tiny, all_instances, apply, tiny};
+use typelift_model::{ActionModel, GroundAtom, Task, strict};
+use typelift_pddl::{ExportOptions, Exported, Level, compile_domain, compile_problem, export};
 
 /// More states than these are not enumerated.
 const MOST: usize = 3_000;
