@@ -31,7 +31,7 @@ fn asked(name: &str) -> (ActionModel, Task) {
 #[divan::bench(max_time = 1)]
 fn parse(bencher: Bencher) {
     let shown = demonstrations(0);
-    let states: usize = shown.iter().map(|demonstration| demonstration.scenes.len()).sum();
+    let states: usize = shown.iter().map(|demonstration| demonstration.recording.scenes().count()).sum();
     bencher.counter(ItemsCount::new(states)).bench(|| dataset_of(black_box(&shown)));
 }
 

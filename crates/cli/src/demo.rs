@@ -7,8 +7,8 @@ use std::time::Instant;
 use typelift::agent::{Account, Confirmation, Episode, Event, Experience, Observer, Options, run};
 use typelift::imagine;
 use typelift::learn::{self, Report, learn_dataset};
-use typelift::model::{ActionModel, Budget, LearnedModel, ParseConfig, Plan, Symbol};
-use typelift::world::{Dataset, Parser, Reset, Trace, TraceAction, World};
+use typelift::model::{ActionModel, Budget, LearnedModel, ParseConfig, Plan};
+use typelift::world::{Dataset, Parser, Reset, World};
 use typelift_kitchen::{Demonstration, Kitchen, KitchenTask, demonstrations, draw, faults, hierarchy, tasks};
 
 use crate::describe::{describe, individual_name};
@@ -43,7 +43,7 @@ impl Demo {
     pub(crate) fn run(&self, clock: Clock) -> Result<Exit, Failure> {
         let mut out = anstream::stdout().lock();
         let demonstrations = demonstrations(self.seed);
-        let titles = demonstrations.iter().map(|d| d.task.as_str()).collect::<Vec<_>>().join(", ");
+        let titles = demonstrations.iter().map(|d| d.recording.header.task.as_str()).collect::<Vec<_>>().join(", ");
         writeln!(out, "{HEAD}Shown{HEAD:#}: 8 tasks in a kitchen")?;
         writeln!(out, "  {}.", wrapped(titles.split(' '), 2, 78))?;
 
@@ -163,21 +163,8 @@ fn imagined_notes(plan: &Plan, model: &ActionModel) -> Vec<String> {
 
 fn learn_all(demonstrations: &[Demonstration]) -> Result<(LearnedModel, Report), Failure> {
     let mut parser = Parser::new(hierarchy(), ParseConfig::default());
-    let mut traces = Vec::with_capacity(demonstrations.len());
-    for demonstration in demonstrations {
-        let mut states = Vec::with_capacity(demonstration.scenes.len());
-        for scene in &demonstration.scenes {
-            states.push(parser.parse(scene).map_err(Failure::bad_input)?);
-        }
-        traces.push(Trace {
-            file: Some(Symbol::from(format!("{}.jsonl", demonstration.name))),
-            task: demonstration.task.clone(),
-            goal: demonstration.goal.clone(),
-            states,
-            actions: demonstration.calls.iter().cloned().map(TraceAction::from).collect(),
-            ..Trace::default()
-        });
-    }
+    let traces = demonstrations.iter().map(|d| d.recording.trace(format!("{}.jsonl", d.name), &mut parser));
+    let traces = traces.collect::<Result<_, _>>().map_err(Failure::bad_input)?;
     let dataset = Dataset::new(&parser, traces);
     learn_dataset(&dataset, &learn::Options::default()).map_err(Failure::bad_input)
 }

@@ -5,13 +5,9 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use typelift::model::{ParseConfig, Symbol};
-use typelift::world::{
-    FileError, Parser, Reset, Scene, TaskFile, TraceAction, TraceHeader, TraceItem, TraceReader, World, write_file,
-    write_task, write_trace,
-};
+use typelift::world::{FileError, Parser, Reset, Scene, TaskFile, TraceReader, World, write_file, write_task};
 use typelift_kitchen::{
-    Demonstration, Difference, Kitchen as Simulator, KitchenTask, demonstrations, draw, faults, replay, serve, tasks,
-    types_pddl,
+    Difference, Kitchen as Simulator, KitchenTask, demonstrations, draw, faults, replay, serve, tasks, types_pddl,
 };
 
 use crate::exit::Exit;
@@ -84,7 +80,9 @@ fn export(folder: &Path, seed: u64, quiet: bool) -> Result<Exit, Failure> {
     write_file(&folder.join("types.pddl"), types_pddl().as_bytes())?;
     let demonstrations = demonstrations(seed);
     for demonstration in &demonstrations {
-        write_file(&demos.join(format!("{}.jsonl", demonstration.name)), &trace_bytes(demonstration)?)?;
+        let mut bytes = Vec::new();
+        demonstration.recording.write(&mut bytes)?;
+        write_file(&demos.join(format!("{}.jsonl", demonstration.name)), &bytes)?;
     }
     let (tasks, faults) = (tasks(), faults());
     for (folder, list) in [(&task_folder, &tasks), (&fault_folder, &faults)] {
@@ -102,14 +100,6 @@ fn export(folder: &Path, seed: u64, quiet: bool) -> Result<Exit, Failure> {
         );
     }
     Ok(Exit::Success)
-}
-
-fn trace_bytes(demonstration: &Demonstration) -> Result<Vec<u8>, Failure> {
-    let header = TraceHeader { task: demonstration.task.clone(), goal: demonstration.goal.clone() };
-    let actions: Vec<TraceAction> = demonstration.calls.iter().cloned().map(TraceAction::from).collect();
-    let mut bytes = Vec::new();
-    write_trace(&mut bytes, &header, &demonstration.scenes, &actions)?;
-    Ok(bytes)
 }
 
 /// The task with the state that its scenario has under this seed, so that it can be planned without the simulator.
@@ -141,21 +131,14 @@ fn replay_one(path: &Path) -> Result<(usize, Option<Difference>), Failure> {
     // Checks the whole file first: types, entities, the alternation of states and actions.
     let mut parser = Parser::new(typelift_kitchen::hierarchy(), ParseConfig::default());
     typelift::world::read_trace(path, &mut parser)?;
-    let (mut scenes, mut calls) = (Vec::new(), Vec::new());
-    for item in TraceReader::open(path)? {
-        match item? {
-            TraceItem::State(scene) => scenes.push(scene),
-            TraceItem::Action(action) => calls.push(action.call),
-        }
-    }
-    let mut scenes = scenes.into_iter();
-    let Some(Scene::Snapshot(first)) = scenes.next() else {
+    let recording = TraceReader::open(path)?.recording()?;
+    let Scene::Snapshot(first) = recording.first else {
         return Err(Failure::bad_input(format!("{}: the first state is not a snapshot", path.display())).with_hint(
             "A kitchen cannot be built from atoms alone: they do not say in which order things are stacked.",
         ));
     };
-    let report =
-        replay(&first, calls.into_iter().zip(scenes)).map_err(|error| Failure::bad_input(error).in_file(path))?;
+    let steps = recording.steps.into_iter().map(|(action, after)| (action.call, after));
+    let report = replay(&first, steps).map_err(|error| Failure::bad_input(error).in_file(path))?;
     Ok((report.steps, report.difference))
 }
 

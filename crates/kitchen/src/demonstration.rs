@@ -1,7 +1,7 @@
 //! The eight demonstrations, acted out in the simulator.
 
-use typelift_model::{GroundAtom, GroundCall, Symbol};
-use typelift_world::Scene;
+use typelift_model::{GroundCall, Symbol};
+use typelift_world::{Recording, Scene, TraceHeader};
 
 use crate::kind::ItemKind;
 use crate::kind::ItemKind::{Banana, Bread, Carrot, Lettuce, Onion, Plate, Tomato};
@@ -13,14 +13,8 @@ use crate::tasks::{CHOPPED, Dish, MASHED, TOASTED, goal};
 pub struct Demonstration {
     /// A name that can be a file's.
     pub name: String,
-    /// What is done, in words.
-    pub task: String,
-    /// What holds in the end.
-    pub goal: Vec<GroundAtom>,
-    /// What is observed, before the first action and after each.
-    pub scenes: Vec<Scene>,
-    /// The actions, one fewer than the scenes.
-    pub calls: Vec<GroundCall>,
+    /// What is done and observed, and what holds in the end.
+    pub recording: Recording,
 }
 
 /// The eight demonstrations, 5, 5, 5, 10, 8, 15, 10 and 10 steps long. Each is made in the room of this seed with the
@@ -78,29 +72,23 @@ fn demonstrate(
 ) -> Demonstration {
     let mut kinds = vec![Plate];
     kinds.extend(dishes.iter().map(|dish| dish.food));
-    let mut demonstrator = Demonstrator::new(&kinds, seed);
+    let header = TraceHeader { task: task.to_owned(), goal: goal(dishes) };
+    let mut demonstrator = Demonstrator::new(&kinds, seed, header);
     script(&mut demonstrator);
-    Demonstration {
-        name: name.to_owned(),
-        task: task.to_owned(),
-        goal: goal(dishes),
-        scenes: demonstrator.scenes,
-        calls: demonstrator.calls,
-    }
+    Demonstration { name: name.to_owned(), recording: demonstrator.recording }
 }
 
-/// Acts in a room and writes down what it does and sees.
+/// Acts in a room, and records it.
 struct Demonstrator {
     room: Room,
-    scenes: Vec<Scene>,
-    calls: Vec<GroundCall>,
+    recording: Recording,
 }
 
 impl Demonstrator {
-    fn new(kinds: &[ItemKind], seed: u64) -> Self {
+    fn new(kinds: &[ItemKind], seed: u64, header: TraceHeader) -> Self {
         let room = Room::with_items(kinds, seed).expect("a demonstration needs a handful of items");
-        let scenes = vec![Scene::Snapshot(room.snapshot())];
-        Self { room, scenes, calls: Vec::new() }
+        let first = Scene::Snapshot(room.snapshot());
+        Self { room, recording: Recording { header, first, steps: Vec::new() } }
     }
 
     /// Takes an item from where it lies.
@@ -137,8 +125,7 @@ impl Demonstrator {
     fn act(&mut self, name: &str, target: Symbol, item: Symbol) -> &mut Self {
         let call = GroundCall { name: Symbol::new(name), args: vec![self.room.agent_name().clone(), target, item] };
         self.room.act(&call).expect("a script follows the rules");
-        self.scenes.push(Scene::Snapshot(self.room.snapshot()));
-        self.calls.push(call);
+        self.recording.steps.push((call.into(), Scene::Snapshot(self.room.snapshot())));
         self
     }
 }

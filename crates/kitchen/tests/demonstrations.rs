@@ -9,20 +9,20 @@ use typelift_world::{Parser, Scene};
 
 fn states(demonstration: &Demonstration) -> Vec<State> {
     let mut parser = Parser::new(hierarchy(), parse_config());
-    demonstration.scenes.iter().map(|scene| parser.parse(scene).unwrap()).collect()
+    demonstration.recording.scenes().map(|scene| parser.parse(scene).unwrap()).collect()
 }
 
 #[test]
 fn lengths_and_goals() {
     for seed in 0..20 {
         let all = demonstrations(seed);
-        let lengths: Vec<usize> = all.iter().map(|d| d.calls.len()).collect();
+        let lengths: Vec<usize> = all.iter().map(|d| d.recording.steps.len()).collect();
         assert_eq!(lengths, [5, 5, 5, 10, 8, 15, 10, 10]);
         for demonstration in &all {
-            assert_eq!(demonstration.scenes.len(), demonstration.calls.len() + 1);
             let states = states(demonstration);
-            assert!(states.last().unwrap().satisfies(&demonstration.goal), "{}", demonstration.name);
-            let goal_before_the_end = states[..states.len() - 1].iter().any(|s| s.satisfies(&demonstration.goal));
+            assert!(states.last().unwrap().satisfies(&demonstration.recording.header.goal), "{}", demonstration.name);
+            let goal_before_the_end =
+                states[..states.len() - 1].iter().any(|s| s.satisfies(&demonstration.recording.header.goal));
             assert!(!goal_before_the_end && states.windows(2).all(|pair| pair[0].atoms != pair[1].atoms));
         }
     }
@@ -31,7 +31,7 @@ fn lengths_and_goals() {
 #[test]
 fn names_and_words() {
     let all = demonstrations(0);
-    let names: Vec<(&str, &str)> = all.iter().map(|d| (d.name.as_str(), d.task.as_str())).collect();
+    let names: Vec<(&str, &str)> = all.iter().map(|d| (d.name.as_str(), d.recording.header.task.as_str())).collect();
     let expected = [
         ("cut_lettuce", "cut a lettuce"),
         ("cut_banana", "cut a banana"),
@@ -43,13 +43,14 @@ fn names_and_words() {
         ("cut_lettuce_blend_carrot", "cut a lettuce and blend a carrot"),
     ];
     assert_eq!(names, expected);
-    let goal: Vec<String> = all[5].goal.iter().map(ToString::to_string).collect();
+    let goal: Vec<String> = all[5].recording.header.goal.iter().map(ToString::to_string).collect();
     assert_eq!(goal[..2], ["toast_state_Toasted(bread_1)", "content_holds(plate_1,bread_1)"]);
 }
 
 #[test]
 fn two_breads_are_toasted_at_once_and_taken_out_top_first() {
-    let calls: Vec<String> = demonstrations(3)[5].calls[9..].iter().map(ToString::to_string).collect();
+    let calls: Vec<String> =
+        demonstrations(3)[5].recording.steps[9..].iter().map(|(action, _)| action.call.to_string()).collect();
     let expected = [
         "PLACE(agent_1, toaster_1, bread_2)",
         "USE(agent_1, toaster_1, bread_2)",
@@ -68,7 +69,7 @@ fn sixty_eight_transitions_of_thirty_nine_kinds() {
     let mut kinds = BTreeSet::new();
     let mut transitions = 0;
     for demonstration in demonstrations(1) {
-        for (pair, call) in states(&demonstration).windows(2).zip(&demonstration.calls) {
+        for (pair, (call, _)) in states(&demonstration).windows(2).zip(recorded(&demonstration)) {
             let lifted = |name: &Symbol| {
                 let role = call.args.iter().position(|arg| arg == name).map_or(-1, |index| index as i64);
                 format!("{role}:{}", hierarchy.name(pair[0].objects[name]))
@@ -89,22 +90,22 @@ fn a_seed_means_the_same_demonstrations() {
 }
 
 fn recorded(demonstration: &Demonstration) -> Vec<(GroundCall, Scene)> {
-    demonstration.calls.iter().cloned().zip(demonstration.scenes[1..].iter().cloned()).collect()
+    demonstration.recording.steps.iter().map(|(action, after)| (action.call.clone(), after.clone())).collect()
 }
 
 #[test]
 fn a_recording_is_repeated() {
     for demonstration in demonstrations(2) {
-        let Scene::Snapshot(first) = &demonstration.scenes[0] else { panic!("a snapshot") };
+        let Scene::Snapshot(first) = &demonstration.recording.first else { panic!("a snapshot") };
         let report = replay(first, recorded(&demonstration)).unwrap();
-        assert_eq!((report.steps, report.difference), (demonstration.calls.len(), None));
+        assert_eq!((report.steps, report.difference), (demonstration.recording.steps.len(), None));
     }
 }
 
 #[test]
 fn the_first_difference_is_found() {
     let demonstration = &demonstrations(2)[0];
-    let Scene::Snapshot(first) = &demonstration.scenes[0] else { panic!("a snapshot") };
+    let Scene::Snapshot(first) = &demonstration.recording.first else { panic!("a snapshot") };
     let mut steps = recorded(demonstration);
     for (_, scene) in &mut steps[2..] {
         let Scene::Snapshot(snapshot) = scene else { panic!("a snapshot") };
@@ -123,7 +124,7 @@ fn the_first_difference_is_found() {
 #[test]
 fn an_action_that_is_refused_here_is_a_difference() {
     let demonstration = &demonstrations(2)[0];
-    let Scene::Snapshot(first) = &demonstration.scenes[0] else { panic!("a snapshot") };
+    let Scene::Snapshot(first) = &demonstration.recording.first else { panic!("a snapshot") };
     let mut steps = recorded(demonstration);
     steps.remove(1);
     let difference = replay(first, steps).unwrap().difference.unwrap();
@@ -134,13 +135,13 @@ fn an_action_that_is_refused_here_is_a_difference() {
 #[test]
 fn unknown_atoms_are_not_compared() {
     let demonstration = &demonstrations(2)[0];
-    let Scene::Snapshot(first) = &demonstration.scenes[0] else { panic!("a snapshot") };
+    let Scene::Snapshot(first) = &demonstration.recording.first else { panic!("a snapshot") };
     let after = &states(demonstration)[1];
     let hierarchy = hierarchy();
     let hidden: BTreeSet<_> = after.atoms.iter().filter(|atom| atom.predicate == "free").cloned().collect();
     let objects = after.objects.iter().map(|(name, ty)| (name.clone(), hierarchy.name(*ty).clone())).collect();
     let mut atoms = after.atoms.difference(&hidden).cloned().collect::<BTreeSet<_>>();
-    let call = demonstration.calls[0].clone();
+    let call = demonstration.recording.steps[0].0.call.clone();
     let symbolic = |atoms: &BTreeSet<_>| Scene::Symbolic {
         objects: std::collections::BTreeMap::clone(&objects),
         atoms: atoms.clone(),

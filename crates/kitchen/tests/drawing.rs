@@ -42,11 +42,11 @@ agent_1 holds nothing
 
 #[test]
 fn in_the_middle_of_it() {
-    let demonstration = &demonstrations(3)[5];
-    let Scene::Snapshot(before) = &demonstration.scenes[12] else { panic!("a snapshot") };
+    let steps = &demonstrations(3)[5].recording.steps;
+    let Scene::Snapshot(before) = &steps[11].1 else { panic!("a snapshot") };
     let mut room = Room::from_snapshot(before).unwrap();
-    room.act(&demonstration.calls[12]).unwrap();
-    room.act(&demonstration.calls[13]).unwrap();
+    room.act(&steps[12].0.call).unwrap();
+    room.act(&steps[13].0.call).unwrap();
     room.break_tool("blender_1");
     assert_eq!(
         draw(&room),

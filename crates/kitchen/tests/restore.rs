@@ -15,7 +15,7 @@ fn restored(entities: &Value) -> Result<Room, String> {
 fn a_snapshot_survives_the_way_through_a_room() {
     let mut seen = 0;
     for demonstration in demonstrations(8) {
-        for scene in &demonstration.scenes {
+        for scene in demonstration.recording.scenes() {
             let Scene::Snapshot(snapshot) = scene else { panic!("a snapshot") };
             assert_eq!(Room::from_snapshot(snapshot).unwrap().snapshot(), *snapshot);
             let text = serde_json::to_string(snapshot).unwrap();

@@ -1,8 +1,8 @@
 //! Models learned from the kitchen's demonstrations, and from some of them.
 
 use typelift::learn::{self, Report, learn_dataset};
-use typelift::model::{ActionModel, LearnedModel, ParseConfig, Symbol};
-use typelift::world::{Dataset, Parser, Trace, TraceAction};
+use typelift::model::{ActionModel, LearnedModel, ParseConfig};
+use typelift::world::{Dataset, Parser, Trace};
 use typelift_kitchen::{Demonstration, demonstrations, hierarchy};
 
 /// Demonstrations of the kitchen as a dataset.
@@ -11,14 +11,7 @@ use typelift_kitchen::{Demonstration, demonstrations, hierarchy};
 /// If the simulator's scenes are not states of its own hierarchy.
 pub fn dataset_of(demonstrations: &[Demonstration]) -> Dataset {
     let mut parser = Parser::new(hierarchy(), ParseConfig::default());
-    let trace = |d: &Demonstration| Trace {
-        file: Some(Symbol::from(format!("{}.jsonl", d.name))),
-        task: d.task.clone(),
-        goal: d.goal.clone(),
-        states: d.scenes.iter().map(|scene| parser.parse(scene).expect("a state")).collect(),
-        actions: d.calls.iter().cloned().map(TraceAction::from).collect(),
-        ..Trace::default()
-    };
+    let trace = |d: &Demonstration| d.recording.trace(format!("{}.jsonl", d.name), &mut parser).expect("states");
     let traces: Vec<Trace> = demonstrations.iter().map(trace).collect();
     Dataset::new(&parser, traces)
 }

@@ -37,7 +37,7 @@ pub struct Trace {
     pub file: Option<Symbol>,
     /// What was done, in words.
     pub task: String,
-    /// What held in the end, if it was said.
+    /// What was to hold in the end, if it was said.
     pub goal: Vec<GroundAtom>,
     /// The states.
     pub states: Vec<State>,
@@ -79,6 +79,29 @@ impl Trace {
             file: self.file.as_ref(),
             step,
         })
+    }
+}
+
+/// What happened at one step: the one value that an agent gives out, and a learner takes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Record {
+    /// What it belongs to, as the name of a trace; none while it happens.
+    pub source: Option<Symbol>,
+    /// Its number there, from 1.
+    pub step: u64,
+    /// The state before.
+    pub before: State,
+    /// What was done: the call, what was expected of it, whether it was executed, why not, and the verdict.
+    pub action: TraceAction,
+    /// The state after.
+    pub after: State,
+}
+
+impl Record {
+    /// The step as a learner takes it.
+    pub fn transition(&self) -> Transition<'_> {
+        let Self { source, step, before, action, after } = self;
+        Transition { before, action, after, file: source.as_ref(), step: *step }
     }
 }
 

@@ -57,6 +57,13 @@ impl<R: BufRead> LineReader<R> {
             let hint = "Leave out of the states what gives no atoms, such as images.".to_owned();
             return Err(FileError::at_line(&self.path, self.line, what).with_hint(hint));
         }
+        if !complete
+            && let Err(error) = str::from_utf8(&self.buffer)
+            && error.error_len().is_none()
+        {
+            // What was cut off may end in the middle of a character.
+            self.buffer.truncate(error.valid_up_to());
+        }
         let text = str::from_utf8(&self.buffer).map_err(|e| not_utf8(&self.path, self.line, e.valid_up_to()))?;
         let text = if self.line == 1 { text.strip_prefix('\u{FEFF}').unwrap_or(text) } else { text };
         Ok(Some(Line { number: self.line, text: text.trim_end_matches(['\n', '\r']), complete }))

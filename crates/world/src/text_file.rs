@@ -67,6 +67,29 @@ fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     done
 }
 
+/// Writes a file that is not there yet. Whoever finds it finds all of it, and it is on the disk when this returns.
+///
+/// # Errors
+/// Of kind `AlreadyExists` if there is something of this name.
+pub(crate) fn write_new_file(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let (temporary, mut file) = create_beside(path)?;
+    let written = file.write_all(bytes).and_then(|()| file.sync_all());
+    let done = written.and_then(|()| match fs::hard_link(&temporary, path) {
+        // Not every file system has links. There the name is taken first, and for a moment the file is empty.
+        Err(error) if error.kind() != io::ErrorKind::AlreadyExists => {
+            File::create_new(path).and_then(|_| fs::rename(&temporary, path))
+        }
+        linked => linked,
+    });
+    // After an error that one is to be reported; else it may be gone already.
+    let _ = fs::remove_file(&temporary);
+    if let (Ok(()), Some(Ok(folder))) = (&done, path.parent().map(File::open)) {
+        // Not every system can put a folder's names on the disk.
+        let _ = folder.sync_all();
+    }
+    done
+}
+
 /// A new file in the folder of `target`.
 fn create_beside(target: &Path) -> io::Result<(PathBuf, File)> {
     let Some(name) = target.file_name() else {

@@ -1,7 +1,6 @@
 //! The lines of a trace, format `trace/1`: a header, then states and actions in turn.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::io::{self, Write};
 
 use serde::{Deserialize, Serialize};
 use typelift_model::{GroundAtom, GroundCall, Pattern, Symbol};
@@ -28,7 +27,7 @@ pub enum TraceLine<'a> {
         /// What is done, in words.
         #[cfg_attr(feature = "schema", schemars(default))]
         task: &'a str,
-        /// What holds in the end.
+        /// What is to hold in the end.
         #[cfg_attr(feature = "schema", schemars(default))]
         goal: &'a [GroundAtom],
     },
@@ -83,42 +82,6 @@ impl<'a> From<&'a TraceAction> for TraceLine<'a> {
             verdict: *verdict,
         }
     }
-}
-
-impl TraceLine<'_> {
-    /// Writes the line with its end, for whoever records a trace as it happens.
-    ///
-    /// # Errors
-    /// Those of the writer.
-    pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
-        serde_json::to_writer(&mut *out, self)?;
-        out.write_all(b"\n")
-    }
-}
-
-/// Writes a trace.
-///
-/// # Errors
-/// Those of the writer; also if there is not one scene more than there are actions.
-pub fn write_trace(
-    out: &mut impl Write,
-    header: &TraceHeader,
-    scenes: &[Scene],
-    actions: &[TraceAction],
-) -> io::Result<()> {
-    let [first, rest @ ..] = scenes else {
-        return Err(io::Error::other("a trace has at least one state"));
-    };
-    if rest.len() != actions.len() {
-        return Err(io::Error::other("a trace has one state more than it has actions"));
-    }
-    TraceLine::from(header).write(out)?;
-    TraceLine::from(first).write(out)?;
-    for (action, scene) in actions.iter().zip(rest) {
-        TraceLine::from(action).write(out)?;
-        TraceLine::from(scene).write(out)?;
-    }
-    Ok(())
 }
 
 /// A header, as it is read.

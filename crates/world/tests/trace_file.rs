@@ -6,8 +6,8 @@ use std::path::Path;
 use proptest::prelude::*;
 use typelift_model::{GroundAtom, GroundCall, Hierarchy, ParseConfig, Pattern, Slot, Symbol};
 use typelift_world::{
-    Entity, Expected, FileError, Parser, Relation, Scene, Snapshot, Trace, TraceAction, TraceHeader, TraceItem,
-    TraceReader, Value, Verdict, read_trace, write_trace,
+    Entity, Expected, FileError, Parser, Recording, Relation, Scene, Snapshot, Trace, TraceAction, TraceHeader,
+    TraceReader, Value, Verdict, read_trace,
 };
 
 const HEADER: &str = r#"{"format":"trace/1","task":"t","goal":["free(a)"],"recorder":"x"}"#;
@@ -92,7 +92,6 @@ fn the_header_comes_first_and_names_the_version() {
 fn states_and_actions_come_in_turn() {
     assert_eq!(refused(&[HEADER]), "a.jsonl:1: there is no state after the header");
     assert_eq!(refused(&[HEADER, ACTION]), "a.jsonl:2: there is no state before the first action");
-    assert_eq!(refused(&[HEADER, STATE, ACTION]), "a.jsonl:3: there is no state after the last action");
     assert_eq!(
         refused(&[HEADER, STATE, ACTION, ACTION, STATE]),
         "a.jsonl:4: there is no state between this action and the one before"
@@ -109,10 +108,6 @@ fn states_and_actions_come_in_turn() {
 #[test]
 fn malformed_lines_are_refused_with_their_place() {
     let broken = format!("{HEADER}\n{STATE}\n{}", &ACTION[..20]);
-    assert_eq!(
-        read_bytes(broken.as_bytes()).expect_err("cut").to_string(),
-        "a.jsonl:3:20: the last line is incomplete"
-    );
     assert_eq!(
         read_bytes(format!("{broken}\n").as_bytes()).expect_err("cut").to_string(),
         "a.jsonl:3:20: this line ends too early"
@@ -194,12 +189,48 @@ fn nothing_comes_after_an_error() {
     assert!(reader.next().is_none());
 }
 
+/// A trace, and in words what is lost of it.
+fn read_cut(bytes: &[u8]) -> (usize, Option<String>) {
+    let trace = read_bytes(bytes).unwrap_or_else(|error| panic!("{error}: {}", String::from_utf8_lossy(bytes)));
+    assert_eq!(trace.states.len(), trace.actions.len() + 1);
+    let warnings = trace.warnings.iter().map(|warning| FileError { file: "a.jsonl".to_owned(), ..warning.clone() });
+    let mut warnings = warnings.map(|warning| warning.to_string());
+    (trace.actions.len(), warnings.next())
+}
+
 #[test]
-fn a_trace_that_is_out_of_turn_is_not_written() {
-    let header = TraceHeader::default();
-    assert!(write_trace(&mut Vec::new(), &header, &[], &[]).is_err());
-    let scene = Scene::Snapshot(Snapshot::default());
-    assert!(write_trace(&mut Vec::new(), &header, &[scene.clone(), scene], &[]).is_err());
+fn what_is_whole_of_a_recording_that_was_cut_off_is_read() {
+    let whole = [HEADER, STATE, ACTION, STATE].join("\n");
+    let cut = |then: &str| read_cut(format!("{whole}\n{then}").as_bytes());
+    let warning = |text: &str| (1, Some(text.to_owned()));
+    assert_eq!(cut(&ACTION[..20]), warning("a.jsonl:5: the recording was cut off in this line: it is left out"));
+    let both = format!("{ACTION}\n{}", &STATE[..20]);
+    assert_eq!(
+        cut(&both),
+        warning("a.jsonl:6: the recording was cut off in this line: it is left out, and so is GO(a) before it")
+    );
+    assert_eq!(cut(ACTION), warning("a.jsonl:5: there is no state after GO(a): it is left out"));
+    assert_eq!(cut(&format!("{ACTION}\n\n")), cut(ACTION));
+    assert_eq!(cut(""), (1, None));
+    assert_eq!(read_cut(format!("{whole}\n{ACTION}\n{STATE}").as_bytes()), (2, None), "only the end of the line lacks");
+    let first = format!("{HEADER}\n{}", &STATE[..20]);
+    let error = read_bytes(first.as_bytes()).expect_err("no state at all").to_string();
+    assert_eq!(error, "a.jsonl:2:20: the last line is incomplete");
+}
+
+#[test]
+fn wherever_a_recording_is_cut_off_the_steps_before_are_read() {
+    let named = ACTION.replace("stuck", "schön");
+    let steps = [format!("{named}\n{STATE}\n"), format!("{MEANT}\n{STATE}\n")];
+    let begin = format!("{HEADER}\n{STATE}\n");
+    let bytes = format!("{begin}{}{}", steps[0], steps[1]).into_bytes();
+    let ends = [begin.len() - 1, begin.len() + steps[0].len() - 1, bytes.len() - 1];
+    for length in ends[0]..=bytes.len() {
+        let (steps, warning) = read_cut(&bytes[..length]);
+        let whole = ends.iter().filter(|end| length >= **end).count() - 1;
+        let between = ends.iter().any(|end| length == *end || length == end + 1);
+        assert_eq!((steps, warning.is_none()), (whole, between), "{length}: {warning:?}");
+    }
 }
 
 fn name() -> impl Strategy<Value = Symbol> {
@@ -274,22 +305,13 @@ proptest! {
         first in scene(),
         steps in prop::collection::vec((action(), scene()), 0..4),
     ) {
-        let header = TraceHeader { task, goal };
-        let (actions, rest): (Vec<_>, Vec<_>) = steps.into_iter().unzip();
-        let scenes: Vec<Scene> = std::iter::once(first).chain(rest).collect();
+        let recording = Recording { header: TraceHeader { task, goal }, first, steps };
         let mut bytes = Vec::new();
-        write_trace(&mut bytes, &header, &scenes, &actions).expect("written");
-        let reader = TraceReader::new(Path::new("a"), bytes.as_slice()).expect("a header");
-        prop_assert_eq!(reader.header(), &header);
-        let (mut read_scenes, mut read_actions) = (Vec::new(), Vec::new());
-        for item in reader {
-            match item.expect("a line") {
-                TraceItem::State(scene) => read_scenes.push(scene),
-                TraceItem::Action(action) => read_actions.push(action),
-            }
-        }
-        prop_assert_eq!(read_scenes, scenes);
-        prop_assert_eq!(read_actions, actions);
+        recording.write(&mut bytes).expect("written");
+        let mut reader = TraceReader::new(Path::new("a"), bytes.as_slice()).expect("a header");
+        prop_assert_eq!(reader.header(), &recording.header);
+        prop_assert_eq!(reader.recording().expect("all lines"), recording);
+        prop_assert_eq!(reader.warnings(), []);
     }
 
     #[test]

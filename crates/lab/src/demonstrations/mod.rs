@@ -205,7 +205,7 @@ pub fn demonstrations_experiment(
     let result = DemonstrationsResult {
         options: options.clone(),
         tasks: experiment.tasks.len(),
-        titles: experiment.demonstrations.iter().map(|shown| shown.task.clone()).collect(),
+        titles: experiment.demonstrations.iter().map(|shown| shown.recording.header.task.clone()).collect(),
         records,
     };
     result.write(conduct.folder)?;

@@ -2,11 +2,11 @@
 
 use typelift::learn::{Learned, Options, learn, observe};
 use typelift::model::{Evidence, LearnedModel, ParseConfig, Stop};
-use typelift::world::Transition;
+use typelift::world::Record;
 use typelift_kitchen::hierarchy;
 
 use super::measurement::{End, Measurement};
-use super::play::{Observed, Play};
+use super::play::Play;
 use super::processor_time::Stopwatch;
 
 /// Transitions that are held at a time: looking at the clock around each would take longer than learning from it.
@@ -19,13 +19,11 @@ pub(crate) fn measure(transitions: u64, seconds: f64) -> Measurement {
     let (mut play, mut evidence, mut observing) = (Play::new(0), Evidence::default(), 0.0);
     let (mut end, mut left) = (End::Finished, transitions);
     while left > 0 {
-        let chunk: Vec<Observed> = (0..left.min(CHUNK)).map(|_| play.next()).collect();
+        let chunk: Vec<Record> = (0..left.min(CHUNK)).map(|_| play.next()).collect();
         left -= chunk.len() as u64;
         let begun = Stopwatch::start();
         for seen in &chunk {
-            let (file, step) = (Some(&seen.file), seen.step);
-            let transition = Transition { before: &seen.before, action: &seen.action, after: &seen.after, file, step };
-            observe(&mut evidence, &transition, &hierarchy);
+            observe(&mut evidence, &seen.transition(), &hierarchy);
         }
         observing += begun.seconds();
         if observing > seconds {

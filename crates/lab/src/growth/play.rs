@@ -5,7 +5,7 @@
 //! state before and the state after.
 
 use typelift::model::{GroundCall, ParseConfig, State, Symbol};
-use typelift::world::{Parser, Scene, TraceAction};
+use typelift::world::{Parser, Record, Scene};
 use typelift_kitchen::{Filler, Room, Scenario, hierarchy};
 
 /// Steps in one room.
@@ -25,16 +25,6 @@ pub(crate) struct Play {
     rooms: u64,
     step: u64,
     before: State,
-}
-
-/// What was observed.
-#[derive(Debug)]
-pub(crate) struct Observed {
-    pub(crate) before: State,
-    pub(crate) action: TraceAction,
-    pub(crate) after: State,
-    pub(crate) file: Symbol,
-    pub(crate) step: u64,
 }
 
 impl Play {
@@ -81,7 +71,7 @@ impl Play {
     }
 
     /// The next transition.
-    pub(crate) fn next(&mut self) -> Observed {
+    pub(crate) fn next(&mut self) -> Record {
         if self.step == STEPS {
             self.enter_next_room();
         }
@@ -89,8 +79,7 @@ impl Play {
         self.step += 1;
         let after = self.observe();
         let before = std::mem::replace(&mut self.before, after.clone());
-        let action = TraceAction::from(call);
-        Observed { before, action, after, file: self.file.clone(), step: self.step }
+        Record { source: Some(self.file.clone()), step: self.step, before, action: call.into(), after }
     }
 
     /// Performs a random action that is possible; the call names all that takes part, as in the demonstrations.
