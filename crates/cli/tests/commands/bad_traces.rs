@@ -35,7 +35,6 @@ fn what_is_missing() {
     case("two actions in a row", &[HEADER, SHUT, ACT, ACT, OPEN]);
     case("two states in a row", &[HEADER, SHUT, OPEN]);
     case("an action before the first state", &[HEADER, ACT, OPEN]);
-    case("no state after the last action", &[HEADER, SHUT, ACT]);
     case("a header alone", &[HEADER]);
     case("no header", &[SHUT, ACT, OPEN]);
     case("an empty line within", &[HEADER, SHUT, "", ACT, OPEN]);
@@ -43,8 +42,7 @@ fn what_is_missing() {
     case("no arguments", &[HEADER, SHUT, r#"{"action":{"name":"OPEN"}}"#, OPEN]);
     transcript.add("an empty file", &refused(&folder, ""));
     transcript.add("a blank file", &refused(&folder, " \n\n"));
-    transcript
-        .add("a last line that is cut off", &refused(&folder, format!("{HEADER}\n{SHUT}\n{ACT}\n{}", &OPEN[..60])));
+    transcript.add("a first state that is cut off", &refused(&folder, format!("{HEADER}\n{}", &SHUT[..60])));
     transcript.add("a line that is cut off", &refused(&folder, format!("{HEADER}\n{}\n{ACT}\n{OPEN}\n", &SHUT[..60])));
     transcript.add("a header that is cut off", &refused(&folder, &HEADER[..30]));
     insta::assert_snapshot!(transcript.0);
@@ -150,9 +148,25 @@ fn a_line_over_the_limit_is_refused() {
 fn one_bad_trace_among_good_ones() {
     let folder = folder();
     folder.write("a.jsonl", [HEADER, SHUT, ACT, OPEN].join("\n"));
-    folder.write("b.jsonl", [HEADER, SHUT, ACT, SHUT, ACT].join("\n"));
+    folder.write("b.jsonl", [HEADER, SHUT, ACT, SHUT, ACT, ACT].join("\n"));
     let ended = folder.refuses(31, "learn a.jsonl b.jsonl --types types.pddl -o model.json");
-    assert!(ended.err.starts_with("error: b.jsonl:5: there is no state after the last action\nhint: "), "{ended}");
+    let what = "error: b.jsonl:6: there is no state between this action and the one before\nhint: ";
+    assert!(ended.err.starts_with(what), "{ended}");
+}
+
+#[test]
+fn what_is_whole_of_a_recording_that_was_cut_off_is_learned_from() {
+    let folder = folder();
+    let whole = [HEADER, SHUT, ACT, OPEN].join("\n");
+    let mut transcript = Transcript::default();
+    let mut case = |title: &str, then: &str| {
+        folder.write("trace.jsonl", format!("{whole}\n{then}"));
+        transcript.add(title, &folder.run(LEARN));
+    };
+    case("in an action", &ACT[..20]);
+    case("after an action", &format!("{ACT}\n"));
+    case("in the state after it", &format!("{ACT}\n{}", &SHUT[..60]));
+    insta::assert_snapshot!(transcript.0);
 }
 
 #[test]
