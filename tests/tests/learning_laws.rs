@@ -207,7 +207,7 @@ proptest! {
         let dataset = walks(&seeds, 60);
         let evidence = evidence_of(&dataset);
         prop_assert_eq!(evidence.transitions as usize, 60 * seeds.len());
-        let counted: u64 = evidence.clusters.values().map(|c| c.count).sum::<u64>() + evidence.unchanged();
+        let counted: u64 = evidence.clusters.values().map(|c| c.count).sum::<u64>() + evidence.failures();
         prop_assert_eq!(counted, evidence.transitions, "nothing is lost");
         for individual in [true, false] {
             assert_supported(&learned(&dataset.hierarchy, evidence.clone(), individual), individual);

@@ -72,7 +72,9 @@ struct Report {
     transitions: u64,
     individual_actions: usize,
     generalized_actions: usize,
-    unchanged: u64,
+    failures: u64,
+    refused_merges: usize,
+    failures_against_merges: u64,
     unexplained: u64,
     single_support: usize,
     predicates: BTreeMap<Symbol, usize>,
@@ -258,12 +260,22 @@ fn json_report(dataset: &Dataset, model: &LearnedModel, report: &learn::Report) 
         transitions: report.transitions,
         individual_actions: report.individual,
         generalized_actions: report.generalized,
-        unchanged: report.unchanged,
+        failures: report.failures,
+        refused_merges: report.refused_merges,
+        failures_against_merges: report.failures_against,
         unexplained: report.unexplained,
         single_support: report.single_support,
         predicates: dataset.predicates.clone(),
         actions: model.model.actions.iter().map(|action| action.name.clone()).collect(),
     }
+}
+
+/// What to say of pairs of actions that were not merged, if there are any.
+pub(crate) fn refused_merges(report: &learn::Report) -> Option<String> {
+    let (refused, failures) = (report.refused_merges as u64, report.failures_against);
+    let speak = if failures == 1 { "speaks" } else { "speak" };
+    (refused > 0)
+        .then(|| format!("{} not merged: {} {speak} against it", count(refused, "pair"), count(failures, "failure")))
 }
 
 fn print_counts(
@@ -280,8 +292,11 @@ fn print_counts(
         let names = model.model.actions.iter().map(|action| action.name.as_str());
         writeln!(out, "{generalized}:\n  {}", wrapped(names, 2, 80))?;
     }
-    if report.unchanged > 0 {
-        writeln!(out, "{} changed nothing, kept as negatives", count(report.unchanged, "transition"))?;
+    if let Some(line) = refused_merges(report) {
+        writeln!(out, "{line}")?;
+    }
+    if report.failures > 0 {
+        writeln!(out, "{} not executed, or changed nothing", count(report.failures, "transition"))?;
     }
     for (reason, (times, witnesses)) in &model.evidence.unexplained {
         let reason = match reason {
@@ -289,6 +304,8 @@ fn print_counts(
             Unexplained::PartlyObserved => "something about their entities is unknown",
             Unexplained::TooLarge => "too many entities take part",
             Unexplained::TooSymmetric => "too many entities changed alike to tell them apart",
+            Unexplained::NotExecuted => "something changed, though the action was not executed",
+            Unexplained::TimedOut => "the action was not finished in time",
         };
         let places: Vec<String> = witnesses.iter().map(|w| format!("{} step {}", w.file, w.step)).collect();
         writeln!(out, "{} unexplained, {reason}: {}", count(*times, "transition"), places.join(", "))?;

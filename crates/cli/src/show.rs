@@ -3,6 +3,7 @@
 use std::io::Write;
 use std::path::PathBuf;
 
+use typelift::learn::{self, learn};
 use typelift::model::{LearnedModel, Symbol};
 use typelift::pddl::{ExportOptions, Level, export};
 
@@ -10,6 +11,7 @@ use crate::describe::{describe, describe_axiom};
 use crate::exit::Exit;
 use crate::failure::{Failure, or_one_of};
 use crate::files::{ModelInput, domain_name, read_model_input};
+use crate::learn::refused_merges;
 use crate::style::count;
 
 /// Show what a model holds, and what each action rests on
@@ -54,6 +56,12 @@ impl Show {
                     count(model.predicates.len() as u64, "predicate"),
                     count(evidence.transitions, "transition"),
                 )?;
+                // A model of individual actions was never to be merged.
+                let again = learn(&model.hierarchy, &evidence, &learn::Options::default());
+                let report = again.ok().map(|learned| learned.report).filter(|r| r.generalized == model.actions.len());
+                if let Some(line) = report.as_ref().and_then(refused_merges) {
+                    writeln!(out, "{line}\n")?;
+                }
                 for action in &model.actions {
                     writeln!(out, "{}", describe(action, &model, None))?;
                 }

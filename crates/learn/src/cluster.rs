@@ -18,10 +18,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use typelift_model::{
-    ClusterKey, Evidence, GroundAtom, Hierarchy, LiftedAtom, MOST_PARAMETERS, NegativeKey, Symbol, Term, TypeId,
-    Unexplained, Unknown,
+    ClusterKey, Evidence, GroundAtom, Hierarchy, LiftedAtom, MOST_PARAMETERS, NegativeKey, Symbol, Term, Unexplained,
+    Unknown,
 };
 use typelift_world::Transition;
+
+use crate::outcome::{Outcome, outcome};
 
 /// Orders of the entities of one effect that are compared at most.
 const LEAF_BOUND: usize = 40_320;
@@ -29,67 +31,138 @@ const LEAF_BOUND: usize = 40_320;
 /// Adds one transition to the evidence.
 pub fn observe(evidence: &mut Evidence, transition: &Transition<'_>, hierarchy: &Hierarchy) {
     evidence.transitions += 1;
-    let witness = transition.witness();
     let (before, after, call) = (transition.before, transition.after, &transition.action.call);
-    if before.objects != after.objects || call.args.iter().any(|arg| !before.objects.contains_key(arg)) {
-        evidence.add_unexplained(Unexplained::ObjectsChanged, witness);
+    let outcome = outcome(transition.action);
+    if outcome == Outcome::Undecided {
+        evidence.add_unexplained(Unexplained::TimedOut, transition.witness());
+        return;
+    }
+    let same_objects = before.objects == after.objects;
+    if !same_objects && outcome == Outcome::AsShown || call.args.iter().any(|arg| !before.objects.contains_key(arg)) {
+        evidence.add_unexplained(Unexplained::ObjectsChanged, transition.witness());
         return;
     }
     let adds: Vec<&GroundAtom> = before.added(after).collect();
     let deletes: Vec<&GroundAtom> = before.deleted(after).collect();
-
-    let mut met: BTreeSet<&Symbol> = BTreeSet::new();
-    let mentioned = call.args.iter().chain(adds.iter().chain(&deletes).flat_map(|atom| &atom.args));
-    let objects: Vec<&Symbol> = mentioned.filter(|object| met.insert(object)).collect();
-    if objects.len() > MOST_PARAMETERS {
-        evidence.add_unexplained(Unexplained::TooLarge, witness);
-        return;
-    }
-    let named = call.args.iter().collect::<BTreeSet<_>>().len();
-    let types: Vec<TypeId> = objects.iter().map(|object| before.objects[*object]).collect();
-    let call_params: Vec<u32> =
-        call.args.iter().map(|arg| objects.iter().position(|o| *o == arg).unwrap_or_default() as u32).collect();
-    let type_names = |order: &[usize]| order.iter().map(|&i| hierarchy.name(types[i]).clone()).collect::<Vec<_>>();
-
-    let index: BTreeMap<&Symbol, u32> = objects.iter().copied().zip(0..).collect();
-    let lift = |atom: &GroundAtom| LiftedAtom::lift(atom, |object| index.get(object).copied());
-    let hides = |unknown: &Unknown<Symbol>| match unknown {
-        Unknown::Matching(patterns) => patterns.iter().any(|p| p.names().all(|name| index.contains_key(name))),
-        Unknown::AllBut(_) => true,
+    let changed = !same_objects || !adds.is_empty() || !deletes.is_empty();
+    let result = match outcome {
+        Outcome::AsShown if changed => observe_effect(evidence, transition, adds, deletes, hierarchy),
+        Outcome::AsShown => observe_failure(evidence, transition, &[&before.unknown, &after.unknown], hierarchy),
+        Outcome::NotExecuted | Outcome::Undecided => {
+            if changed {
+                evidence.add_unexplained(Unexplained::NotExecuted, transition.witness());
+            }
+            observe_failure(evidence, transition, &[&before.unknown], hierarchy)
+        }
     };
-    if hides(&before.unknown) || hides(&after.unknown) {
-        evidence.add_unexplained(Unexplained::PartlyObserved, witness);
-        return;
+    if let Err(reason) = result {
+        evidence.add_unexplained(reason, transition.witness());
     }
-    let state: Vec<LiftedAtom> = before.atoms.iter().filter_map(lift).collect();
+}
 
-    if adds.is_empty() && deletes.is_empty() {
-        let identity: Vec<usize> = (0..objects.len()).collect();
-        let key = NegativeKey { action: call.name.clone(), types: type_names(&identity), call: call_params };
-        evidence.negatives.entry(key).or_default().add(state.into_iter().collect(), witness);
-        return;
+/// Adds what an action changed to the cluster of its lifted effect.
+fn observe_effect(
+    evidence: &mut Evidence,
+    transition: &Transition<'_>,
+    adds: Vec<&GroundAtom>,
+    deletes: Vec<&GroundAtom>,
+    hierarchy: &Hierarchy,
+) -> Result<(), Unexplained> {
+    let (before, after) = (transition.before, transition.after);
+    let others = adds.iter().chain(&deletes).flat_map(|atom| &atom.args);
+    let entities = Entities::of(transition, others, hierarchy)?;
+    if [before, after].iter().any(|state| entities.concern(&state.unknown)) {
+        return Err(Unexplained::PartlyObserved);
     }
-    let effect = Effect {
-        adds: adds.into_iter().filter_map(lift).collect(),
-        deletes: deletes.into_iter().filter_map(lift).collect(),
-        state,
-    };
-    let initial = objects
+    let lift = |atoms: Vec<&GroundAtom>| atoms.into_iter().filter_map(|atom| entities.lift(atom)).collect();
+    let effect = Effect { adds: lift(adds), deletes: lift(deletes), state: lift(before.atoms.iter().collect()) };
+    let colours = entities
+        .types
         .iter()
         .enumerate()
-        .map(|(i, _)| if i < named { format!("{i:08}") } else { format!("~{}", hierarchy.name(types[i])) });
-    let Some((order, lifted)) = canonical_form(&effect, &initial.collect::<Vec<_>>(), named) else {
-        evidence.add_unexplained(Unexplained::TooSymmetric, witness);
-        return;
-    };
+        .map(|(i, ty)| if i < entities.named { format!("{i:08}") } else { format!("~{ty}") });
+    let (order, lifted) =
+        canonical_form(&effect, &colours.collect::<Vec<_>>(), entities.named).ok_or(Unexplained::TooSymmetric)?;
     let key = ClusterKey {
-        action: call.name.clone(),
-        types: type_names(&order),
-        call: call_params,
+        action: transition.action.call.name.clone(),
+        types: order.iter().map(|&i| entities.types[i].clone()).collect(),
+        call: entities.call.clone(),
         adds: lifted.adds,
         deletes: lifted.deletes,
     };
-    evidence.clusters.entry(key).or_default().add(lifted.state.into_iter().collect(), witness);
+    evidence.clusters.entry(key).or_default().add(lifted.state.into_iter().collect(), transition.witness());
+    Ok(())
+}
+
+/// Adds an action that was not executed, or changed nothing, to the negatives: over the entities of its call and, where
+/// it is recorded, of the action that was expected.
+fn observe_failure(
+    evidence: &mut Evidence,
+    transition: &Transition<'_>,
+    unknown: &[&Unknown<Symbol>],
+    hierarchy: &Hierarchy,
+) -> Result<(), Unexplained> {
+    let before = transition.before;
+    let expected = transition.action.expected.iter().flat_map(|expected| &expected.args);
+    let entities = Entities::of(transition, expected.filter(|name| before.objects.contains_key(*name)), hierarchy)?;
+    if unknown.iter().any(|unknown| entities.concern(unknown)) {
+        return Err(Unexplained::PartlyObserved);
+    }
+    let state = before.atoms.iter().filter_map(|atom| entities.lift(atom)).collect();
+    let key = NegativeKey { action: transition.action.call.name.clone(), types: entities.types, call: entities.call };
+    evidence.negatives.entry(key).or_default().add(state, transition.witness());
+    Ok(())
+}
+
+/// The entities that a transition is about, in order: those of its call first.
+struct Entities<'a> {
+    index: BTreeMap<&'a Symbol, u32>,
+    types: Vec<Symbol>,
+    /// How many the call names.
+    named: usize,
+    /// The call's arguments, as numbers of entities.
+    call: Vec<u32>,
+}
+
+impl<'a> Entities<'a> {
+    fn of(
+        transition: &Transition<'a>,
+        others: impl Iterator<Item = &'a Symbol>,
+        hierarchy: &Hierarchy,
+    ) -> Result<Self, Unexplained> {
+        let args = &transition.action.call.args;
+        let mut index: BTreeMap<&Symbol, u32> = BTreeMap::new();
+        let mut types = Vec::new();
+        let mut named = 0;
+        for (i, name) in args.iter().chain(others).enumerate() {
+            let next = index.len() as u32;
+            index.entry(name).or_insert_with(|| {
+                types.push(hierarchy.name(transition.before.objects[name]).clone());
+                next
+            });
+            if i < args.len() {
+                named = index.len();
+            }
+        }
+        if types.len() > MOST_PARAMETERS {
+            return Err(Unexplained::TooLarge);
+        }
+        let call = args.iter().map(|arg| index[arg]).collect();
+        Ok(Self { index, types, named, call })
+    }
+
+    /// The atom over their numbers, if it is about them alone.
+    fn lift(&self, atom: &GroundAtom) -> Option<LiftedAtom> {
+        LiftedAtom::lift(atom, |object| self.index.get(object).copied())
+    }
+
+    /// Whether an atom about them alone may be among these.
+    fn concern(&self, unknown: &Unknown<Symbol>) -> bool {
+        match unknown {
+            Unknown::Matching(patterns) => patterns.iter().any(|p| p.names().all(|name| self.index.contains_key(name))),
+            Unknown::AllBut(_) => true,
+        }
+    }
 }
 
 /// Lifted atoms over object indices, in some labelling. Ordered as canonical forms are compared.

@@ -9,15 +9,15 @@
 //! contains the smaller one. So no candidate has a higher recall than the common preconditions alone, and of equals
 //! the one with fewest preconditions, the most general, is kept. The power set need not be enumerated: the
 //! intersection is the answer, whatever the preconditions and the observations are. A property test holds this
-//! against enumeration.
+//! against enumeration. What decides whether the pair is merged at all is failures: see `score.rs`.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
-use typelift_model::{Evidence, Hierarchy, LiftedAtom, Support, Symbol, TypeId, effect_bijections};
+use typelift_model::{Evidence, Hierarchy, LiftedAtom, NegativeKey, Support, Symbol, TypeId, effect_bijections};
 
 use crate::draft::Draft;
-use crate::score::score_action;
+use crate::score::{Failures, score_action};
 
 /// Bijections between two effects that are compared at most; beyond it, the first ones in order.
 const BIJECTION_BOUND: usize = 5_040;
@@ -32,42 +32,72 @@ fn shape(action: &Draft) -> Shape {
     (action.action.clone(), action.call.clone(), action.types.len(), predicates)
 }
 
-/// Generalizes pairs until nothing changes; also returns how many pairs were scored.
-pub(crate) fn to_fixed_point(actions: Vec<Draft>, evidence: &Evidence, hierarchy: &Hierarchy) -> (Vec<Draft>, usize) {
-    let mut scored = 0;
+/// What generalizing counted.
+#[derive(Debug, Default)]
+pub(crate) struct Counts {
+    /// Pairs whose generalization was scored.
+    pub(crate) scored: usize,
+    /// Pairs that could be merged in the end and are not, since failures speak against it.
+    pub(crate) refused: usize,
+    /// Those failures.
+    pub(crate) failures: u64,
+}
+
+/// Generalizes pairs until nothing changes.
+pub(crate) fn to_fixed_point(actions: Vec<Draft>, evidence: &Evidence, hierarchy: &Hierarchy) -> (Vec<Draft>, Counts) {
+    let mut counts = Counts::default();
+    let failures = Failures::of(evidence, hierarchy);
+    let mut speak_against: BTreeMap<&NegativeKey, u64> = BTreeMap::new();
     let mut groups: BTreeMap<Shape, Vec<Draft>> = BTreeMap::new();
     for action in actions {
         groups.entry(shape(&action)).or_default().push(action);
     }
     for group in groups.values_mut() {
-        while let Some((i, j, generalized)) = first_merge(group, evidence, hierarchy, &mut scored) {
+        let refused = loop {
+            let search = first_merge(group, evidence, &failures, hierarchy);
+            counts.scored += search.scored;
+            let Some((i, j, generalized)) = search.merge else { break search.refused };
             group[i] = generalized;
             group.remove(j);
+        };
+        counts.refused += refused.len();
+        for (key, times) in refused.iter().flat_map(|merged| failures.allowed_by(merged, hierarchy)) {
+            let most = speak_against.entry(key).or_default();
+            *most = times.max(*most);
         }
     }
-    (groups.into_values().flatten().collect(), scored)
+    counts.failures = speak_against.values().sum();
+    (groups.into_values().flatten().collect(), counts)
+}
+
+/// A look through the pairs of a group.
+#[derive(Default)]
+struct Search {
+    /// The first two to be merged, and what they become.
+    merge: Option<(usize, usize, Draft)>,
+    /// What the pairs before them would have become.
+    refused: Vec<Draft>,
+    scored: usize,
 }
 
 /// The first pair, in order, whose generalization is at least as good as the mean of the two.
-fn first_merge(
-    group: &[Draft],
-    evidence: &Evidence,
-    hierarchy: &Hierarchy,
-    scored: &mut usize,
-) -> Option<(usize, usize, Draft)> {
+fn first_merge(group: &[Draft], evidence: &Evidence, failures: &Failures<'_>, hierarchy: &Hierarchy) -> Search {
+    let score = |action: &Draft| score_action(action, evidence, failures, hierarchy);
+    let mut search = Search::default();
     for (i, left) in group.iter().enumerate() {
         for (j, right) in group.iter().enumerate().skip(i + 1) {
             let Some(correspondence) = corresponding_parameters(left, right, hierarchy) else { continue };
             let types = create_gen_pars(left, right, &correspondence, hierarchy);
             let generalized = create_gen_action(left, right, &correspondence, types);
-            let score = |a: &Draft| score_action(&a.preconditions, &a.support, evidence);
-            *scored += 1;
+            search.scored += 1;
             if score(&generalized).at_least_mean_of(score(left), score(right)) {
-                return Some((i, j, generalized));
+                search.merge = Some((i, j, generalized));
+                return search;
             }
+            search.refused.push(generalized);
         }
     }
-    None
+    search
 }
 
 /// The bijection `map[left] = right` of the parameters; of several the one with most common preconditions, then the

@@ -4,7 +4,7 @@
 //!
 //! | step                    | file             |
 //! |-------------------------|------------------|
-//! | `ClusterLiftedEffects`  | `cluster.rs`     |
+//! | `ClusterLiftedEffects`  | `cluster.rs`, and what a step is taken for, `outcome.rs` |
 //! | `ExtractPreconditions`  | `precondition.rs`|
 //! | `CreateAction`          | `draft.rs`       |
 //! | `CreateGenPars`, `CreateGenAction` | `generalize.rs` |
@@ -28,6 +28,7 @@
 mod cluster;
 mod draft;
 mod generalize;
+mod outcome;
 mod precondition;
 mod score;
 
@@ -40,6 +41,7 @@ use typelift_world::Dataset;
 pub use cluster::observe;
 
 use draft::Draft;
+use generalize::Counts;
 
 /// What is learned, and how.
 #[derive(Debug, Clone, Default)]
@@ -70,9 +72,13 @@ pub struct Report {
     pub generalized: usize,
     /// Pairs of actions whose generalization was scored.
     pub scored_pairs: usize,
-    /// Transitions that changed nothing.
-    pub unchanged: u64,
-    /// Transitions that nothing explains.
+    /// Pairs of actions of the model that were not merged, since failures speak against it.
+    pub refused_merges: usize,
+    /// The failures that do.
+    pub failures_against: u64,
+    /// Transitions that were not executed, or changed nothing.
+    pub failures: u64,
+    /// Transitions of which nothing explains what changed.
     pub unexplained: u64,
     /// Actions of the model that rest on a single observation.
     pub single_support: usize,
@@ -126,16 +132,18 @@ pub fn learn(hierarchy: &Hierarchy, evidence: &Evidence, options: &Options) -> R
         actions.push(draft::create_action(key, cluster, preconditions, hierarchy)?);
     }
     let individual = actions.len();
-    let mut scored_pairs = 0;
+    let mut counts = Counts::default();
     if !options.individual {
-        (actions, scored_pairs) = generalize::to_fixed_point(actions, evidence, hierarchy);
+        (actions, counts) = generalize::to_fixed_point(actions, evidence, hierarchy);
     }
     let report = Report {
         transitions: evidence.transitions,
         individual,
         generalized: actions.len(),
-        scored_pairs,
-        unchanged: evidence.unchanged(),
+        scored_pairs: counts.scored,
+        refused_merges: counts.refused,
+        failures_against: counts.failures,
+        failures: evidence.failures(),
         unexplained: evidence.unexplained.values().map(|(count, _)| count).sum(),
         single_support: actions.iter().filter(|action| action.observations() == 1).count(),
     };

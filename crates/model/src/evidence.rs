@@ -226,19 +226,20 @@ fn keep_smallest(witnesses: &mut BTreeSet<Witness>, more: impl IntoIterator<Item
     }
 }
 
-/// What tells negatives apart: an action that changed nothing, applied to entities of these types.
+/// What tells failures apart: an action that was not executed, or changed nothing, applied to entities of these types.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct NegativeKey {
     /// The action's name.
     pub action: Symbol,
-    /// The type of each parameter.
+    /// The types of the different arguments of the call, in their order, then those of the other entities that the
+    /// expected action was about, if that is recorded.
     pub types: Vec<Symbol>,
     /// The call's arguments, as parameters.
     pub call: Vec<u32>,
 }
 
-/// Why a transition belongs to no cluster.
+/// Why what changed in a transition belongs to no cluster.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
@@ -251,6 +252,10 @@ pub enum Unexplained {
     TooLarge,
     /// More entities of the effect than can be told apart within bounds.
     TooSymmetric,
+    /// It was not executed, and left something behind nevertheless. It is among the negatives as well.
+    NotExecuted,
+    /// It was not finished in time, and may be half done.
+    TimedOut,
 }
 
 /// Everything learned from, as a value that merges.
@@ -260,7 +265,7 @@ pub struct Evidence {
     pub transitions: u64,
     /// Transitions that changed something, by action and lifted effect.
     pub clusters: BTreeMap<ClusterKey, Cluster>,
-    /// Transitions that changed nothing.
+    /// Failures: transitions that were not executed, or changed nothing.
     pub negatives: BTreeMap<NegativeKey, Cluster>,
     /// Transitions that nothing explains.
     pub unexplained: BTreeMap<Unexplained, (u64, BTreeSet<Witness>)>,
@@ -290,8 +295,8 @@ impl Evidence {
         }
     }
 
-    /// Transitions that changed nothing.
-    pub fn unchanged(&self) -> u64 {
+    /// Transitions that were not executed, or changed nothing.
+    pub fn failures(&self) -> u64 {
         self.negatives.values().map(|cluster| cluster.count).sum()
     }
 }

@@ -14,6 +14,8 @@ use crate::{
     Term, TypeId, check_name, json_message,
 };
 
+/// Observations that a model may rest on: products of three such numbers are calculated with.
+const MOST_COUNTED: u64 = 1 << 40;
 /// Preconditions that an action may have.
 pub const MOST_PRECONDITIONS: usize = 40_000;
 
@@ -226,7 +228,7 @@ impl Evidence {
             if let Some(bad) = params.find(|&i| i as usize >= types.len()) {
                 return Err(inconsistent(place(), &format!("there is no parameter ?{bad}")));
             }
-            let sum = counts.into_iter().try_fold(total, u64::checked_add);
+            let sum = counts.into_iter().try_fold(total, u64::checked_add).filter(|sum| *sum <= MOST_COUNTED);
             total = sum.ok_or_else(|| inconsistent(place(), "its counts are too large"))?;
         }
         Ok(())
