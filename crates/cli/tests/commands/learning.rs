@@ -39,6 +39,26 @@ fn nothing_to_learn() {
 }
 
 #[test]
+fn failures_speak_against_merging() {
+    let folder = Folder::new();
+    folder.write("types.json", r#"{"cup": "vessel", "mug": "vessel", "jar": "vessel", "vessel": "thing"}"#);
+    let trace = |vessel: &str, executed: bool, after: &str| {
+        let state = |atom: &str| format!(r#"{{"state":{{"objects":{{"x":"{vessel}"}},"atoms":["{atom}(x)"]}}}}"#);
+        let action = format!(r#"{{"action":{{"name":"WASH","args":["x"]}},"executed":{executed}}}"#);
+        format!("{{\"format\":\"trace/1\"}}\n{}\n{action}\n{}\n", state("dirty"), state(after))
+    };
+    folder.write("cup.jsonl", trace("cup", true, "clean"));
+    folder.write("mug.jsonl", trace("mug", true, "clean"));
+    folder.write("jar.jsonl", trace("jar", false, "broken"));
+    folder.run("learn cup.jsonl mug.jsonl --types types.json -o merged.json -q").succeeds();
+    insta::assert_snapshot!(
+        "learn-failures",
+        folder.run("learn cup.jsonl mug.jsonl jar.jsonl --types types.json -o m.json")
+    );
+    insta::assert_snapshot!("show-failures", folder.run("show m.json"));
+}
+
+#[test]
 fn showing_a_model() {
     let folder = Folder::kitchen();
     insta::assert_snapshot!("show", folder.run("show kitchen.json"));
