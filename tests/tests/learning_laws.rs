@@ -10,7 +10,7 @@ use typelift::imagine::{self, imagine};
 use typelift::learn::{self, evidence_of, learn, observe};
 use typelift::model::{
     ActionModel, Budget, ClusterKey, Evidence, GroundAtom, GroundCall, Hierarchy, LearnedModel, LiftedAtom,
-    PRE_STATE_BOUND, ParseConfig, PreStates, State, Symbol, Term, TypeId, is_bijection,
+    PRE_STATE_BOUND, ParseConfig, PreStates, SplitMix64, State, Symbol, Term, TypeId, is_bijection,
 };
 use typelift::plan::Restrictions;
 use typelift::world::{Dataset, Parser, Reset, Scene, Trace, TraceAction, Transition, World};
@@ -23,22 +23,6 @@ fn config(cases: u32) -> Config {
 }
 
 // What is observed in the kitchen.
-
-/// Random numbers; a seed means the same walk everywhere.
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, bound: usize) -> usize {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        ((self.0 >> 33) as usize) % bound
-    }
-
-    fn shuffle<T>(&mut self, elements: &mut [T]) {
-        for end in (1..elements.len()).rev() {
-            elements.swap(end, self.below(end + 1));
-        }
-    }
-}
 
 /// Every call that may make sense where the kitchen stands now.
 fn calls(kitchen: &Kitchen) -> Vec<GroundCall> {
@@ -67,7 +51,7 @@ fn calls(kitchen: &Kitchen) -> Vec<GroundCall> {
 
 /// A random walk: mostly what can be done, now and then what cannot.
 fn walk(seed: u64, steps: usize, parser: &mut Parser) -> Trace {
-    let mut random = Random(seed);
+    let mut random = SplitMix64::new(seed);
     let all = tasks();
     let task = &all[random.below(all.len())];
     let mut kitchen = Kitchen::new();
@@ -224,7 +208,7 @@ proptest! {
         dataset.traces.extend(dataset_of(&demonstrations(1)).traces);
         let whole = learned(&dataset.hierarchy, evidence_of(&dataset), false).to_json().expect("JSON");
 
-        let mut random = Random(salt);
+        let mut random = SplitMix64::new(salt);
         let mut transitions: Vec<Transition<'_>> = dataset.transitions().collect();
         random.shuffle(&mut transitions);
         let mut split = vec![Evidence::default(); 4];
@@ -252,7 +236,7 @@ proptest! {
     #[test]
     fn counts_are_exact_beyond_the_bound(salt in any::<u64>(), number in 200..700_usize, parts in 1..6_usize) {
         let h = small_types();
-        let mut random = Random(salt);
+        let mut random = SplitMix64::new(salt);
         let mut tally: BTreeMap<LiftedAtom, u64> = BTreeMap::new();
         let mut different: BTreeSet<Vec<usize>> = BTreeSet::new();
         let mut split = vec![Evidence::default(); parts];
@@ -312,7 +296,7 @@ fn the_order_and_names_of_demonstrations_do_not_matter() {
         shapes.sort_unstable();
         shapes
     };
-    let mut random = Random(1);
+    let mut random = SplitMix64::new(1);
     for _ in 0..30 {
         let mut dataset = original.clone();
         random.shuffle(&mut dataset.traces);
@@ -346,7 +330,7 @@ fn the_room_of_a_demonstration_does_not_matter() {
 
 #[test]
 fn parsing_is_a_function_of_what_is_there() {
-    let mut random = Random(7);
+    let mut random = SplitMix64::new(7);
     for task in tasks() {
         let reset = Reset { seed: 3, scenario: Some(task.scenario.clone()) };
         let scene = Kitchen::new().reset(&reset).expect("a room");

@@ -28,7 +28,6 @@ mod grid;
 mod kind;
 mod kitchen;
 mod placement;
-mod random;
 mod refusal;
 mod replay;
 mod restore;

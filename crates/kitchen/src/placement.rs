@@ -1,18 +1,17 @@
 //! Seeded rooms: the border of the room is full of stations, one of each tool and counters otherwise. Tools and
 //! items keep out of the corners, which nobody can reach.
 
-use typelift_model::Symbol;
+use typelift_model::{SplitMix64, Symbol};
 
 use crate::grid::Cell;
 use crate::kind::{AGENT, ItemKind, StationKind};
-use crate::random::Random;
 use crate::room::{Agent, Item, Room, Station, Which};
 use crate::scenario::ScenarioError;
 
 impl Room {
     /// A room with these items, each alone on its counter. Counters are numbered row by row.
     pub(crate) fn with_items(kinds: &[ItemKind], seed: u64) -> Result<Self, ScenarioError> {
-        let mut random = Random::new(seed);
+        let mut random = SplitMix64::new(seed);
         let mut cells: Vec<Cell> = Cell::border().filter(|cell| !cell.is_corner()).collect();
         random.shuffle(&mut cells);
         let (tool_cells, item_cells) = cells.split_at(StationKind::TOOLS.len());

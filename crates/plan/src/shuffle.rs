@@ -1,12 +1,6 @@
 //! Numbers that look random and are not: the same seed gives the same order.
 
-/// A number with its bits spread (SplitMix64's finalizer; Steele, Lea and Flood 2014).
-pub(crate) fn spread(number: u64) -> u64 {
-    let mut bits = number.wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    bits ^ (bits >> 31)
-}
+use typelift_model::spread;
 
 /// Brings lists into an order that depends on its seed and on how many came before.
 #[derive(Debug, Clone, Copy)]

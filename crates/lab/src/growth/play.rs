@@ -4,7 +4,7 @@
 //! refuses change nothing and are no transitions. After so many steps comes the next room. Nothing is kept but the
 //! state before and the state after.
 
-use typelift::model::{GroundCall, ParseConfig, State, Symbol};
+use typelift::model::{GroundCall, ParseConfig, SplitMix64, State, Symbol};
 use typelift::world::{Parser, Record, Scene};
 use typelift_kitchen::{Filler, Room, Scenario, hierarchy};
 
@@ -14,7 +14,7 @@ const STEPS: u64 = 60;
 /// A stream of transitions.
 #[derive(Debug)]
 pub(crate) struct Play {
-    random: Random,
+    random: SplitMix64,
     parser: Parser,
     room: Room,
     /// What can be picked, placed in, and used.
@@ -31,7 +31,7 @@ impl Play {
     /// The stream of a seed.
     pub(crate) fn new(seed: u64) -> Self {
         let mut play = Self {
-            random: Random(seed),
+            random: SplitMix64::new(seed),
             parser: Parser::new(hierarchy(), ParseConfig::default()),
             room: Room::build(&Scenario::default(), 0).expect("the default room"),
             items: Vec::new(),
@@ -49,7 +49,7 @@ impl Play {
     fn enter_next_room(&mut self) {
         let filler = if self.rooms.is_multiple_of(2) { Filler::Demonstrated } else { Filler::Novel };
         let scenario = Scenario { filler: Some(filler), ..Scenario::default() };
-        self.room = Room::build(&scenario, self.random.next()).expect("a room with eight items");
+        self.room = Room::build(&scenario, self.random.next_u64()).expect("a room with eight items");
         self.rooms += 1;
         (self.step, self.file) = (0, Symbol::from(format!("room_{}", self.rooms)));
         let snapshot = self.room.snapshot();
@@ -115,24 +115,6 @@ impl Play {
             }
             return GroundCall { name: name.into(), args };
         }
-    }
-}
-
-/// SplitMix64.
-#[derive(Debug)]
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    fn below(&mut self, bound: usize) -> usize {
-        ((u128::from(self.next()) * bound as u128) >> 64) as usize
     }
 }
 

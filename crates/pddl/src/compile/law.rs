@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use proptest::prelude::*;
-use typelift_model::{ActionModel, Atom, GroundAtom, GroundCall, State, Symbol, Task, TypeId};
+use typelift_model::{ActionModel, Atom, GroundAtom, GroundCall, SplitMix64, State, Symbol, Task, TypeId};
 
 use super::limits::Limits;
 use super::tests::written_and_read;
@@ -175,13 +175,12 @@ fn random_state(meaning: &Meaning<'_>, task: &Task, seed: u64) -> State {
     let derived = meaning.model.derived_predicates();
     let objects = [meaning.domain.constants.as_slice(), &meaning.problem.objects].concat();
     let mut state = task.init.clone();
-    let mut seed = seed;
+    let mut random = SplitMix64::new(seed);
     for predicate in
         meaning.domain.predicates.iter().filter(|p| fluents.contains(&p.name) && !derived.contains(&p.name))
     {
         for atom in ground_atoms(predicate, &objects, &meaning.model.hierarchy) {
-            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            if seed >> 62 == 0 {
+            if random.below(4) == 0 {
                 state.atoms.insert(atom);
             } else {
                 state.atoms.remove(&atom);

@@ -8,13 +8,12 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use typelift_model::{Budget, HashSet, Stop};
+use typelift_model::{Budget, HashSet, Stop, spread};
 
 use super::{Found, Report, Search, Space};
 use crate::fdr::{ActionIndex, Registry, StateId};
 use crate::heuristic::{Heuristic, Reached, Step};
 use crate::poll::Poll;
-use crate::shuffle::spread;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct NodeId(u32);
