@@ -8,7 +8,7 @@ use typelift::model::{ActionModel, LearnedModel, ModelFileError, ParseConfig, Sy
 use typelift::world::{DomainFile, FileError, Parser, TaskFile, is_pddl, read_task, read_text, read_types};
 
 use crate::failure::{Failure, NOT_AS_WRITTEN};
-use crate::pddl_domains::declared_name;
+use crate::pddl::declared_name;
 use crate::style::{HINT, WARNING};
 
 /// Warnings of files that are said.

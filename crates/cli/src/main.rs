@@ -1,6 +1,6 @@
 //! The `typelift` program: parse the arguments, call the libraries, show what they found.
 //!
-//! One file a subcommand. Data goes to standard output, everything else to standard error. Every way to end has its
+//! One file, or one folder, a subcommand. Data goes to standard output, everything else to standard error. Every way to end has its
 //! exit code, in [`exit`].
 
 mod account;
@@ -14,19 +14,10 @@ mod files;
 mod goal_check;
 mod kitchen;
 mod lab;
-mod lab_demonstrations;
-mod lab_faults;
-mod lab_growth;
-mod lab_hierarchy;
-mod lab_progress;
-mod lab_report;
-mod lab_table;
 mod learn;
 mod limits;
 mod narrate;
 mod pddl;
-mod pddl_check;
-mod pddl_domains;
 mod plan;
 mod plan_text;
 mod planner_option;

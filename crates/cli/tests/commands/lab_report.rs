@@ -78,6 +78,10 @@ fn a_quick_report_runs_what_is_missing_and_stands_alone() {
     assert!(ended.out.contains("held          13 generalized actions are learned from them.\n"), "{ended}");
     // A panel for each variant, the matrix, the tree, and the plots of growth.
     assert_eq!(page.matches("<svg").count(), 4 + 2 + 10);
+    let judged: Value = serde_json::from_str(&folder.run("lab report --json -o R").out).expect("JSON");
+    let measured = judged.as_array().expect("claims").iter().filter(|claim| claim["finding"]["held"] == true);
+    let last = format!("{} of ", measured.count());
+    assert!(ended.out.lines().last().is_some_and(|line| line.starts_with(&last)), "{ended}");
     let again = folder.run("lab report --quick -o R");
     assert_eq!((again.out, folder.read("R/report.html")), (ended.out, page), "from the same results the same page");
 }

@@ -1,14 +1,14 @@
 //! The paper's claims, each with the number that the results give for it. They live in `data/claims.json`, in our words
 //! and with the place where each stands.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::results::{Cell, Demonstrations, Faults, Results, Scenario, Table};
 use crate::variant::Variant;
 use crate::variant::Variant::{Generalized, GeneralizedImagined, Individual, IndividualImagined};
 
 /// A claim.
-#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Claim {
     /// What it is called here.
     pub id: String,
@@ -20,16 +20,17 @@ pub struct Claim {
 }
 
 /// A claim held against the results.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Judged {
     /// The claim.
+    #[serde(flatten)]
     pub claim: Claim,
     /// Our number in words, and whether the claim held; nothing if it was not measured.
     pub finding: Option<Finding>,
 }
 
 /// What the results say of a claim.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Finding {
     /// Our number, in words.
     pub ours: String,

@@ -5,12 +5,11 @@ use std::io::Write;
 
 use typelift_lab::{FaultRow, FaultsOptions, FaultsResult, faults_experiment};
 
+use super::options::{ExperimentOptions, RoomOptions, parse_runs, warn};
 use crate::columns::Columns;
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::lab::{LabLimits, LabOptions, warn};
 use crate::limits::Clock;
-use crate::quantities::parse_whole;
 use crate::style::{BAD, DIM, GOOD, HEAD, wrapped};
 
 /// Broken tools and exceptions to what was learned, with restart and without
@@ -25,40 +24,31 @@ failed in the first. Writes faults.csv, faults.json and faults.md.
 
 Limits, unless told otherwise: 200,000 expansions a search, 12 proposals and
 120 s a task.")]
-pub(crate) struct LabFaults {
+pub(super) struct LabFaults {
     #[command(flatten)]
-    options: LabOptions,
+    experiment: ExperimentOptions,
     /// Runs of each scenario, each in a room of its own; 1 with --quick
-    #[arg(long, value_name = "N", value_parser = parse_whole, allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = parse_runs, allow_negative_numbers = true)]
     runs: Option<u64>,
-    /// The seed of the first room
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse_whole, allow_negative_numbers = true)]
-    seed: u64,
     #[command(flatten)]
-    limits: LabLimits,
+    rooms: RoomOptions,
 }
 
 impl LabFaults {
-    pub(crate) fn run(&self, clock: Clock, quiet: bool) -> Result<Exit, Failure> {
+    pub(super) fn run(&self, clock: Clock, quiet: bool) -> Result<Exit, Failure> {
         let default = FaultsOptions::default();
-        let quick = self.options.quick;
+        let quick = self.experiment.quick;
         let options = FaultsOptions {
             runs: self.runs.unwrap_or(if quick { 1 } else { default.runs }),
-            seed: self.seed,
-            limits: self.limits.or(default.limits),
+            seed: self.rooms.seed,
+            limits: self.rooms.limits.or(default.limits),
             quick,
         };
-        if options.runs == 0 {
-            return Err(Failure::new(Exit::Usage, "--runs 0: nothing would be run"));
-        }
         let files = "faults.csv, faults.json and faults.md";
-        let result = self.options.carry_out(clock, quiet, files, |conduct| faults_experiment(&options, conduct))?;
-        let mut out = anstream::stdout().lock();
-        if self.options.json {
-            writeln!(out, "{:#}", result.json())?;
-        } else {
-            print(&mut out, &result)?;
-        }
+        let result = self
+            .experiment
+            .carry_out(self.rooms.jobs, clock, quiet, files, |conduct| faults_experiment(&options, conduct))?;
+        self.experiment.results.print(&result.json(), |out| print(out, &result))?;
         let outcomes = || result.records.values().flat_map(|record| [&record.first, &record.later]);
         let out_of_time = outcomes().filter(|outcome| typelift_lab::is_out_of_time(&outcome.ending)).count();
         warn(out_of_time, outcomes().any(typelift_lab::Outcome::solved));
@@ -66,7 +56,7 @@ impl LabFaults {
     }
 }
 
-fn print(out: &mut impl Write, result: &FaultsResult) -> Result<(), Failure> {
+fn print(out: &mut dyn Write, result: &FaultsResult) -> Result<(), Failure> {
     let FaultsOptions { runs, seed, limits, .. } = result.options;
     let legend = format!(
         "Runs solved, and plans proposed; the same of a later task that knows what failed; known mistakes repeated in \

@@ -2,21 +2,19 @@
 
 use std::fs::create_dir_all;
 use std::io::Write;
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::path::Path;
 
 use typelift::world::{FileError, write_file};
 use typelift_lab::report::{Environment, Judged, Results, judge, report_page};
 use typelift_lab::{
-    Conduct, DemonstrationsOptions, FaultsOptions, LabError, Progress, Stopper, TableOptions, TypeHierarchy,
-    demonstrations_experiment, faults_experiment, table,
+    Conduct, DemonstrationsOptions, FaultsOptions, LabError, TableOptions, TypeHierarchy, demonstrations_experiment,
+    faults_experiment, table,
 };
 
+use super::growth::{GrowthLimits, growth};
+use super::options::{ResultOptions, Supervisor};
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::lab_growth::{GrowthLimits, growth};
-use crate::lab_progress::Bar;
-use crate::limits::Interrupt;
 use crate::style::{BAD, DIM, GOOD, HEAD, wrapped};
 
 /// Everything on one page, and each of the paper's claims held against it
@@ -28,31 +26,31 @@ use crate::style::{BAD, DIM, GOOD, HEAD, wrapped};
 Reads what the other experiments wrote to DIR/table, DIR/demonstrations,
 DIR/faults, DIR/hierarchy and DIR/growth, or to DIR itself, and writes
 DIR/report.html, which needs no network and no other file.")]
-pub(crate) struct LabReport {
-    /// The folder of the results and of the page; made if it is not there
-    #[arg(long, short, value_name = "DIR", value_parser = clap::builder::NonEmptyStringValueParser::new())]
-    output: String,
+pub(super) struct LabReport {
+    #[command(flatten)]
+    results: ResultOptions,
     /// First run a small part of what is missing
     #[arg(long)]
     quick: bool,
 }
 
 impl LabReport {
-    pub(crate) fn run(&self, quiet: bool) -> Result<Exit, Failure> {
-        let folder = PathBuf::from(&self.output);
+    pub(super) fn run(&self, quiet: bool) -> Result<Exit, Failure> {
+        let folder = self.results.folder();
         create_dir_all(&folder).map_err(|error| FileError::from_write(&folder, &error))?;
         let mut results = Results::read(&folder)?;
         if self.quick && !results.missing().is_empty() {
             run_missing(&folder, &results.missing(), quiet)?;
             results = Results::read(&folder)?;
         }
-        let page = report_page(&results, &Environment::of_this_machine(), &self.output);
+        let page = report_page(&results, &Environment::of_this_machine(), &folder.display().to_string());
         let path = folder.join("report.html");
         write_file(&path, page.as_bytes())?;
-        print(&mut anstream::stdout().lock(), &judge(&results))?;
+        let judged = judge(&results);
+        self.results.print(&judged, |out| print(out, &judged))?;
         if !quiet {
             for experiment in results.missing() {
-                let command = format!("typelift lab {experiment} -o {}/{experiment}", self.output);
+                let command = format!("typelift lab {experiment} -o {}/{experiment}", folder.display());
                 anstream::eprintln!("not run yet: `{command}` makes it part of the report");
             }
             anstream::eprintln!("wrote {}", path.display());
@@ -63,26 +61,12 @@ impl LabReport {
 
 /// Runs a small part of each missing experiment, in the folder of its name.
 fn run_missing(folder: &Path, missing: &[&str], quiet: bool) -> Result<(), Failure> {
-    let interrupt = Interrupt::install()?;
-    let stopper: Stopper = Arc::new(move || interrupt.is_set());
-    let jobs = std::thread::available_parallelism().map_or(1, usize::from);
+    let supervisor = Supervisor::install(quiet)?;
     for experiment in missing {
-        let own = folder.join(experiment);
-        let bar = Bar::new(quiet);
-        let progress: &dyn Progress = &bar;
-        let conduct = Conduct { folder: &own, fresh: false, jobs, stopper: Arc::clone(&stopper), progress };
         if !quiet {
             anstream::eprint!("{experiment}: ");
         }
-        let ended = quick(experiment, &conduct);
-        bar.finish();
-        ended.map_err(|error| match error {
-            LabError::File(error) => error.into(),
-            LabError::Stopped { .. } => {
-                Failure::new(Exit::Interrupted, error).with_hint("The same command goes on from there.")
-            }
-            LabError::Run { .. } | LabError::Threads(_) => Failure::new(Exit::Internal, error),
-        })?;
+        supervisor.carry_out(&folder.join(experiment), false, None, |conduct| quick(experiment, conduct))?;
     }
     Ok(())
 }
@@ -107,7 +91,7 @@ fn quick(experiment: &str, conduct: &Conduct<'_>) -> Result<(), LabError> {
     }
 }
 
-fn print(out: &mut impl Write, judged: &[Judged]) -> Result<(), Failure> {
+fn print(out: &mut dyn Write, judged: &[Judged]) -> Result<(), Failure> {
     for Judged { claim, finding } in judged {
         let (style, word, ours) = match finding {
             Some(finding) if finding.held => (GOOD, "held", finding.ours.as_str()),

@@ -12,21 +12,21 @@ use crate::style::{HINT, count};
 
 /// A bar on standard error; nothing if that is no terminal.
 #[derive(Debug)]
-pub(crate) struct Bar {
+pub(super) struct Bar {
     quiet: bool,
     bar: ProgressBar,
     running: Mutex<BTreeSet<String>>,
 }
 
 impl Bar {
-    pub(crate) fn new(quiet: bool) -> Self {
+    pub(super) fn new(quiet: bool) -> Self {
         let shown = !quiet && std::io::stderr().is_terminal();
         let target = if shown { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
         Self { quiet, bar: ProgressBar::with_draw_target(None, target), running: Mutex::default() }
     }
 
     /// Takes the bar away.
-    pub(crate) fn finish(&self) {
+    pub(super) fn finish(&self) {
         self.bar.finish_and_clear();
     }
 

@@ -8,12 +8,12 @@ use typelift_lab::{
     Allowance, Conduct, Growth, GrowthResult, LabError, Measurement, Point, Stopper, carry_out, measure,
 };
 
+use super::options::ExperimentOptions;
 use crate::columns::Columns;
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::lab::LabOptions;
 use crate::limits::Clock;
-use crate::quantities::{parse_duration, parse_whole};
+use crate::quantities::{parse_bytes, parse_duration};
 use crate::style::{HEAD, count, wrapped};
 
 /// How time and memory grow with objects, goals and demonstrations
@@ -27,9 +27,9 @@ tools and plates grow too; with 1 to 20 goal foods; learns from 100 to 1,000,000
 transitions. Each point is measured in a process of its own, one at a
 time. Writes growth.csv, growth_fits.csv, growth.json and a log-log plot of each
 quantity with its exponent. With the default limits it takes some ten minutes.")]
-pub(crate) struct LabGrowth {
+pub(super) struct LabGrowth {
     #[command(flatten)]
-    options: LabOptions,
+    experiment: ExperimentOptions,
     #[command(flatten)]
     allowance: GrowthLimits,
 }
@@ -37,45 +37,40 @@ pub(crate) struct LabGrowth {
 /// What a point may spend.
 #[derive(Debug, Clone, Copy, clap::Args)]
 #[command(next_help_heading = "Limits")]
-pub(crate) struct GrowthLimits {
+pub(super) struct GrowthLimits {
     /// Cut a point after this time: seconds, or 500ms, 30s, 5m
     #[arg(long, value_name = "TIME", default_value = "60s", value_parser = parse_duration, allow_negative_numbers = true)]
     time_limit: Duration,
-    /// Cut a point at this many megabytes of ground actions and nodes
-    #[arg(long, value_name = "MB", default_value_t = 2048, value_parser = parse_whole, allow_negative_numbers = true)]
+    /// Cut a point at so much memory for ground actions and nodes: mebibytes, or 500M, 2G
+    #[arg(long, value_name = "SIZE", default_value = "2G", value_parser = parse_bytes, allow_negative_numbers = true)]
     memory_limit: u64,
 }
 
 impl Default for GrowthLimits {
     fn default() -> Self {
-        Self { time_limit: Duration::from_secs(60), memory_limit: 2048 }
+        Self { time_limit: Duration::from_secs(60), memory_limit: 2 << 30 }
     }
 }
 
 impl GrowthLimits {
     fn allowance(self) -> Allowance {
-        Allowance { seconds: self.time_limit.as_secs_f64(), bytes: self.memory_limit.saturating_mul(1 << 20) }
+        Allowance { seconds: self.time_limit.as_secs_f64(), bytes: self.memory_limit }
     }
 }
 
 impl LabGrowth {
-    pub(crate) fn run(&self, clock: Clock, quiet: bool) -> Result<Exit, Failure> {
+    pub(super) fn run(&self, clock: Clock, quiet: bool) -> Result<Exit, Failure> {
         let files = "growth.csv, growth_fits.csv, growth.json and the figures";
-        let (quick, allowance) = (self.options.quick, self.allowance);
-        let result = self.options.carry_out(clock, quiet, files, |conduct| growth(quick, allowance, conduct))?;
-        let mut out = anstream::stdout().lock();
-        if self.options.json {
-            serde_json::to_writer_pretty(&mut out, &result).map_err(std::io::Error::from)?;
-            writeln!(out)?;
-        } else {
-            print(&mut out, &result)?;
-        }
+        let (quick, allowance) = (self.experiment.quick, self.allowance);
+        let result =
+            self.experiment.carry_out(None, clock, quiet, files, |conduct| growth(quick, allowance, conduct))?;
+        self.experiment.results.print(&result, |out| print(out, &result))?;
         Ok(Exit::Success)
     }
 }
 
 /// Measures every point and writes the results.
-pub(crate) fn growth(quick: bool, limits: GrowthLimits, conduct: &Conduct<'_>) -> Result<GrowthResult, LabError> {
+pub(super) fn growth(quick: bool, limits: GrowthLimits, conduct: &Conduct<'_>) -> Result<GrowthResult, LabError> {
     let allowance = limits.allowance();
     let experiment = Growth { quick, allowance, measure: &measure_apart };
     // Two at once would be in each other's way.
@@ -122,7 +117,7 @@ fn measure_apart(point: Point, allowance: Allowance, stopper: &Stopper) -> Resul
     serde_json::from_str(&text).map(Some).map_err(|error| failed(error.to_string()))
 }
 
-fn print(out: &mut impl Write, result: &GrowthResult) -> Result<(), Failure> {
+fn print(out: &mut dyn Write, result: &GrowthResult) -> Result<(), Failure> {
     let cut = result.points.iter().filter(|measured| measured.measurement.end != typelift_lab::End::Finished).count();
     let legend = format!(
         "Power laws fitted to what was measured: it grows as the size to the power of the exponent. {} of {} were cut, \
@@ -145,7 +140,7 @@ fn print(out: &mut impl Write, result: &GrowthResult) -> Result<(), Failure> {
 
 /// Measure one point of growth in this process, and print it as JSON
 #[derive(Debug, clap::Args)]
-pub(crate) struct LabMeasure {
+pub(super) struct LabMeasure {
     /// `storeroom:320`
     point: Point,
     /// What it may spend: seconds
@@ -155,7 +150,7 @@ pub(crate) struct LabMeasure {
 }
 
 impl LabMeasure {
-    pub(crate) fn run(&self) -> Result<Exit, Failure> {
+    pub(super) fn run(&self) -> Result<Exit, Failure> {
         let measured = measure(self.point, Allowance { seconds: self.seconds, bytes: self.bytes });
         let mut out = std::io::stdout().lock();
         serde_json::to_writer(&mut out, &measured).map_err(std::io::Error::from)?;

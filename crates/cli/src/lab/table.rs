@@ -4,12 +4,11 @@ use std::io::Write;
 
 use typelift_lab::{Cell, TableOptions, TableResult, Variant, Verdict, published, table};
 
+use super::options::{ExperimentOptions, RoomOptions, parse_runs, warn};
 use crate::columns::Columns;
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::lab::{LabLimits, LabOptions, warn};
 use crate::limits::Clock;
-use crate::quantities::parse_whole;
 use crate::style::{BAD, DIM, GOOD, HEAD, wrapped};
 
 /// Table I: 24 tasks, four variants, ours beside the paper's
@@ -23,51 +22,41 @@ them that differs from run to run; --no-times leaves them out.
 
 Limits, unless told otherwise: 200,000 expansions a search, 12 proposals and
 120 s a task.")]
-pub(crate) struct LabTable {
+pub(super) struct LabTable {
     #[command(flatten)]
-    options: LabOptions,
+    experiment: ExperimentOptions,
     /// Runs of each cell, each in a room of its own; 1 with --quick
-    #[arg(long, value_name = "N", value_parser = parse_whole, allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = parse_runs, allow_negative_numbers = true)]
     runs: Option<u64>,
-    /// The seed of the first room
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse_whole, allow_negative_numbers = true)]
-    seed: u64,
     /// Do not measure planning times
     #[arg(long)]
     no_times: bool,
     #[command(flatten)]
-    limits: LabLimits,
+    rooms: RoomOptions,
 }
 
 impl LabTable {
-    pub(crate) fn run(&self, clock: Clock, quiet: bool) -> Result<Exit, Failure> {
+    pub(super) fn run(&self, clock: Clock, quiet: bool) -> Result<Exit, Failure> {
         let default = TableOptions::default();
-        let quick = self.options.quick;
+        let quick = self.experiment.quick;
         let options = TableOptions {
             runs: self.runs.unwrap_or(if quick { 1 } else { default.runs }),
-            seed: self.seed,
-            limits: self.limits.or(default.limits),
+            seed: self.rooms.seed,
+            limits: self.rooms.limits.or(default.limits),
             times: !self.no_times,
             quick,
         };
-        if options.runs == 0 {
-            return Err(Failure::new(Exit::Usage, "--runs 0: nothing would be run"));
-        }
         let files = "table.csv, table.json and table.md";
-        let result = self.options.carry_out(clock, quiet, files, |conduct| table(&options, conduct))?;
-        let mut out = anstream::stdout().lock();
-        if self.options.json {
-            writeln!(out, "{:#}", result.json())?;
-        } else {
-            print(&mut out, &result)?;
-        }
+        let result =
+            self.experiment.carry_out(self.rooms.jobs, clock, quiet, files, |conduct| table(&options, conduct))?;
+        self.experiment.results.print(&result.json(), |out| print(out, &result))?;
         let out_of_time = result.cells.iter().map(|cell| cell.out_of_time).sum();
         warn(out_of_time, result.cells.iter().any(|cell| cell.solved > 0));
         Ok(Exit::Success)
     }
 }
 
-fn print(out: &mut impl Write, result: &TableResult) -> Result<(), Failure> {
+fn print(out: &mut dyn Write, result: &TableResult) -> Result<(), Failure> {
     let TableOptions { runs, seed, limits, times, .. } = result.options;
     let time = if times { ", mean planning time" } else { "" };
     let legend = format!(

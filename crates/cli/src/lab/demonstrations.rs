@@ -6,12 +6,11 @@ use typelift_lab::{
     DemonstrationsOptions, DemonstrationsResult, Subset, Variant, demonstrations_experiment, published,
 };
 
+use super::options::{ExperimentOptions, RoomOptions, warn};
 use crate::columns::Columns;
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::lab::{LabLimits, LabOptions, warn};
 use crate::limits::Clock;
-use crate::quantities::parse_whole;
 use crate::style::{HEAD, wrapped};
 
 /// A model from every subset of 2 to 8 demonstrations, tested on all 24 tasks
@@ -26,17 +25,14 @@ them depends on the machine, unless --time-limit ended a search.
 
 Limits, unless told otherwise: 4,000 expansions a search, 4 proposals and
 120 s a task.")]
-pub(crate) struct LabDemonstrations {
+pub(super) struct LabDemonstrations {
     #[command(flatten)]
-    options: LabOptions,
+    experiment: ExperimentOptions,
     /// Only this variant; may be repeated
     #[arg(long, value_name = "NAME", value_parser = parse_variant)]
     variant: Vec<Variant>,
-    /// The seed of the rooms
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse_whole, allow_negative_numbers = true)]
-    seed: u64,
     #[command(flatten)]
-    limits: LabLimits,
+    rooms: RoomOptions,
 }
 
 fn parse_variant(name: &str) -> Result<Variant, String> {
@@ -44,30 +40,26 @@ fn parse_variant(name: &str) -> Result<Variant, String> {
 }
 
 impl LabDemonstrations {
-    pub(crate) fn run(&self, clock: Clock, quiet: bool) -> Result<Exit, Failure> {
+    pub(super) fn run(&self, clock: Clock, quiet: bool) -> Result<Exit, Failure> {
         let default = DemonstrationsOptions::default();
         let chosen = |variant: &Variant| self.variant.is_empty() || self.variant.contains(variant);
         let options = DemonstrationsOptions {
             variants: default.variants.into_iter().filter(chosen).collect(),
-            seed: self.seed,
-            limits: self.limits.or(default.limits),
-            quick: self.options.quick,
+            seed: self.rooms.seed,
+            limits: self.rooms.limits.or(default.limits),
+            quick: self.experiment.quick,
         };
         let files = "violins.svg, demonstrations.csv, sizes.csv, gains.csv, demonstrations.json and demonstrations.md";
-        let result =
-            self.options.carry_out(clock, quiet, files, |conduct| demonstrations_experiment(&options, conduct))?;
-        let mut out = anstream::stdout().lock();
-        if self.options.json {
-            writeln!(out, "{:#}", result.json())?;
-        } else {
-            print(&mut out, &result)?;
-        }
+        let result = self
+            .experiment
+            .carry_out(self.rooms.jobs, clock, quiet, files, |conduct| demonstrations_experiment(&options, conduct))?;
+        self.experiment.results.print(&result.json(), |out| print(out, &result))?;
         warn(result.out_of_time(), result.records.values().any(|record| !record.solved.is_empty()));
         Ok(Exit::Success)
     }
 }
 
-fn print(out: &mut impl Write, result: &DemonstrationsResult) -> Result<(), Failure> {
+fn print(out: &mut dyn Write, result: &DemonstrationsResult) -> Result<(), Failure> {
     let DemonstrationsOptions { seed, limits, variants, .. } = &result.options;
     let tasks = result.tasks;
     let legend = format!(

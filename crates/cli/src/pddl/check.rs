@@ -11,9 +11,9 @@ use typelift::pddl::{
 };
 use typelift::world::{FileError, read_text};
 
+use super::domains::Domains;
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::pddl_domains::Domains;
 use crate::style::{BAD, WARNING, count};
 
 /// What a file is, as far as its beginning tells.
@@ -76,7 +76,7 @@ fn as_object<S: serde::Serializer>(counts: &[(&'static str, u64)], serializer: S
     serializer.collect_map(counts.iter().map(|(what, n)| (format!("{}s", what.replace(' ', "_")), n)))
 }
 
-pub(crate) fn check(files: &[PathBuf], json: bool, quiet: bool) -> Result<Exit, Failure> {
+pub(super) fn check(files: &[PathBuf], json: bool, quiet: bool) -> Result<Exit, Failure> {
     let mut domains = Domains::default();
     let kinds: Vec<Result<Kind, FileError>> = files.iter().map(|file| kind_of(file, &mut domains)).collect();
     let mut out = anstream::stdout().lock();

@@ -1,5 +1,8 @@
 //! `typelift pddl`: checks PDDL files, and lays them out.
 
+mod check;
+mod domains;
+
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -8,7 +11,9 @@ use typelift::world::{FileError, read_text, write_file};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::pddl_check::check;
+use check::check;
+
+pub(crate) use domains::declared_name;
 
 /// Check PDDL files, and lay them out
 #[derive(Debug, clap::Args)]
