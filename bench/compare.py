@@ -6,7 +6,7 @@
 
 Each planner is a whole process, from the files to the plan, and has the same limits of time and memory. On each problem
 they run in turn, on one core if --core is given, so that whatever else the machine does hits all of them. Their plans
-are judged by others, as in tools/confirm_plans.py.
+are judged by others, as in bench/confirm_plans.py.
 
 A folder holds problems, at any depth, each beside its `domain.pddl`; or it is, or is named by, a Python package that is
 laid out as amlgym and pddlgym are. What is in --results already is not run again, unless it ran out of less time than
@@ -41,12 +41,11 @@ import tempfile
 import time
 from importlib.util import find_spec
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT / "tools"))
+from judges import JUDGES, Judge, in_order, steps_of
+from peers import MIMIR
+from problems import folder_of, natural, pairs, text_of
 
-from confirm_plans import JUDGES, Judge, in_order, steps_of  # noqa: E402
-from pddl_corpus import folder_of, pairs, text_of  # noqa: E402
-from peers import MIMIR  # noqa: E402
+ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 # Where the processors' time counts, a process may wait for its turn so many times as long as it computes.
 PATIENCE = 20
@@ -55,11 +54,6 @@ NOTABLE = 0.5
 
 
 # The problems.
-
-
-def natural(path):
-    """p10 after p9."""
-    return [(int(part), "") if part.isdigit() else (0, part) for part in re.split(r"(\d+)", str(path))]
 
 
 def spread(things, count):

@@ -2,7 +2,7 @@
 """Has Fast Downward find the cheapest plans of tests/pddl.
 
     pip install up-fast-downward
-    python tools/expected_costs.py tests/pddl > tests/pddl/expected.txt
+    python bench/expected_costs.py tests/pddl > tests/pddl/expected.txt
 
 Prints a line a folder: its name, and the cost of a cheapest plan of `problem.pddl`, or `unsolvable`. The domain is
 `equivalent.pddl` where there is one, else `domain.pddl`.

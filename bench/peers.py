@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Has other planners solve what typelift exports, and holds their plans against typelift's own model.
 
-    python3 tools/peers.py target/release/typelift FOLDER
+    python3 bench/peers.py target/release/typelift FOLDER
 
 The kitchen's demonstrations and tasks are written to FOLDER, a model is learned, and each task is exported at both
 levels; tasks that need imagination are exported with it. Each planner that is installed solves each. Whatever level a
@@ -31,6 +31,8 @@ import sys
 import time
 from importlib.util import find_spec
 from pathlib import Path
+
+from problems import natural
 
 LEVELS = ["strips", "adl"]
 
@@ -163,11 +165,6 @@ def planners(seconds, driver):
 def plan_name(planner):
     """The file of a planner's plan."""
     return f"{planner.replace(' ', '-').lower()}.plan"
-
-
-def natural(path):
-    """T2.10 after T2.9."""
-    return [int(part) if part.isdigit() else part for part in path.stem.replace("T", "").split(".")]
 
 
 def prepare(typelift, folder, given):
