@@ -2,6 +2,7 @@
 
 pub mod readers;
 pub mod seen;
+pub mod source;
 mod worlds;
 
 use std::collections::BTreeSet;

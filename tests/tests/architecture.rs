@@ -1,7 +1,10 @@
 //! The house rules that a compiler does not hold: who may import whom, and what is deliberately absent.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
+
+use typelift_tests::source::{Code, Imports, source_files};
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..").canonicalize().expect("the workspace")
@@ -77,34 +80,15 @@ fn imports_go_one_way() {
     }
 }
 
-/// The source files of a crate.
-fn sources(name: &str) -> Vec<PathBuf> {
-    let mut folders = vec![root().join("crates").join(name).join("src")];
-    let mut files = Vec::new();
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(&folder).expect("a folder") {
-            let path = entry.expect("an entry").path();
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|ending| ending == "rs") {
-                files.push(path);
-            }
-        }
-    }
-    files
-}
-
-/// The code of a file: without comments, and without the tests at its end.
-fn code(path: &Path) -> String {
-    let text = read(path);
-    let code = text.split("#[cfg(test)]").next().unwrap_or_default();
-    code.lines().map(|line| line.split("//").next().unwrap_or_default()).collect::<Vec<_>>().join("\n")
+/// The folder of a crate's source files.
+fn sources(name: &str) -> PathBuf {
+    root().join("crates").join(name).join("src")
 }
 
 fn assert_absent(rooms: &[&str], words: &[&str], why: &str) {
     for room in rooms {
-        for path in sources(room) {
-            let code = code(&path);
+        for path in source_files(&sources(room)) {
+            let code = Code::read(&path).text();
             for word in words {
                 assert!(!code.contains(word), "{}: `{word}`: {why}", path.display());
             }
@@ -163,4 +147,67 @@ fn libraries_deny_missing_docs() {
         let lib = root().join("crates").join(room).join("src/lib.rs");
         assert!(read(&lib).contains("#![deny(missing_docs)]"), "{room}");
     }
+}
+
+/// The modules of `plan`, from the bottom up: each may import those before it, none after it.
+#[rustfmt::skip]
+const ORDER_IN_PLAN: &[&str] = &[
+    "fact", "lists", "memory", "outcome", "poll", "restrict", "shuffle",
+    "pattern", "reach", "distinct", "fdr", "ground",
+    "emit", "explain", "external", "relaxation", "restricted", "symmetry",
+    "scope", "landmark", "heuristic", "search", "strategy", "level", "planner",
+];
+
+/// The same of `pddl`.
+#[rustfmt::skip]
+const ORDER_IN_PDDL: &[&str] = &[
+    "position", "syntax", "error", "layout_tokens", "sexpr",
+    "format", "names", "required", "requirements", "syntax_writer", "trajectory", "typed_list", "vocabulary",
+    "definition", "objects", "plan_file", "scope", "types",
+    "formula_reader", "effect_reader", "domain_reader", "problem_reader", "compile", "export",
+];
+
+/// What goes against the order still: room, importer, imported.
+const AGAINST_THE_ORDER: &[(&str, &str, &str)] =
+    &[("plan", "distinct", "ground"), ("plan", "fdr", "ground"), ("plan", "level", "planner")];
+
+/// Circles that are left: room, folder in it, and the modules.
+const CIRCLES: &[(&str, &str, &[&str])] = &[
+    ("model", "", &["action", "action_model", "axiom", "plan"]),
+    ("pddl", "compile", &["block", "case", "invent", "solve"]),
+    ("plan", "", &["distinct", "fdr", "ground", "level", "planner"]),
+    ("world", "", &["entity_line", "trace_file", "trace_line"]),
+];
+
+#[test]
+fn modules_of_plan_and_pddl_have_an_order() {
+    let mut against = BTreeSet::new();
+    for (room, order) in [("plan", ORDER_IN_PLAN), ("pddl", ORDER_IN_PDDL)] {
+        let imports = Imports::of(&sources(room));
+        let known: BTreeSet<String> = order.iter().map(|module| (*module).to_owned()).collect();
+        assert_eq!(imports.modules[""], known, "{room}: each module has its place in the list");
+        let place = |module: &String| order.iter().position(|known| known == module);
+        let upward = imports.folders[""].iter().filter(|(importer, imported)| place(importer) < place(imported));
+        against.extend(upward.map(|(importer, imported)| (room, importer.clone(), imported.clone())));
+    }
+    let known = AGAINST_THE_ORDER.iter().map(|(room, from, to)| (*room, (*from).to_owned(), (*to).to_owned()));
+    assert_eq!(against, known.collect(), "what goes against the order is listed, and nothing else is");
+}
+
+#[test]
+fn no_modules_import_each_other_in_a_circle() {
+    let mut found = Vec::new();
+    for (room, _) in ALLOWED {
+        let imports = Imports::of(&sources(room));
+        for folder in imports.folders.keys() {
+            let circle: BTreeSet<String> = imports.circles(folder).into_iter().map(|(importer, _)| importer).collect();
+            if !circle.is_empty() {
+                found.push(format!("{room}/{folder}: {circle:?}"));
+            }
+        }
+    }
+    found.sort();
+    let known =
+        CIRCLES.iter().map(|(room, folder, modules)| format!("{room}/{folder}: {:?}", BTreeSet::from_iter(*modules)));
+    assert_eq!(found, known.collect::<Vec<_>>(), "circles that are left are listed, and nothing else is");
 }
