@@ -6,15 +6,11 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use proptest::prelude::*;
 use proptest::sample::Index;
-use proptest::test_runner::Config;
 use typelift::model::{
     GroundAtom, Hierarchy, LiftedAtom, PreStates, Symbol, Term, TypeId, effect_bijections, is_bijection,
 };
+use typelift_model::testing::cases;
 use typelift_tests::seen::{Seen, any_order, permutations, renaming, seen, seen_atom, small_types};
-
-fn config(cases: u32) -> Config {
-    Config { cases, failure_persistence: None, ..Config::default() }
-}
 
 // Types.
 
@@ -42,7 +38,7 @@ fn ancestors(edges: &[(String, String)], of: &str) -> Vec<String> {
 }
 
 proptest! {
-    #![proptest_config(config(256))]
+    #![proptest_config(cases(256))]
 
     #[test]
     fn types_are_ordered_and_meet_in_the_least_common_ancestor(edges in edges()) {
@@ -103,7 +99,7 @@ fn signed(n: usize) -> impl Strategy<Value = Vec<(bool, LiftedAtom)>> {
 }
 
 proptest! {
-    #![proptest_config(config(1_000))]
+    #![proptest_config(cases(1_000))]
 
     #[test]
     fn unification_finds_exactly_the_bijections(
@@ -142,7 +138,7 @@ proptest! {
 // Clusters.
 
 proptest! {
-    #![proptest_config(config(1_500))]
+    #![proptest_config(cases(1_500))]
 
     #[test]
     fn transitions_are_of_one_cluster_exactly_if_they_unify(

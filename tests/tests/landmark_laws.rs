@@ -8,7 +8,7 @@ use typelift::imagine::{self, imagine};
 use typelift::model::{ActionModel, Budget, Symbol, Task, strict};
 use typelift::plan::{FactId, GroundTask, Op, Restrictions, TieOrder, ground, landmark_sequences};
 use typelift_kitchen::tasks;
-use typelift_model::testing::{Cheapest, Tiny, all_instances, cheapest, cheapest_without, tiny};
+use typelift_model::testing::{Cheapest, Tiny, all_instances, cases, cheapest, cheapest_without, tiny};
 use typelift_tests::{kitchen_model, planning_task};
 
 fn grounded(model: &ActionModel, task: &Task) -> GroundTask {
@@ -106,7 +106,7 @@ fn landmarks_of_the_kitchen_are_necessary() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 4_000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(cases(4_000))]
 
     #[test]
     fn landmarks_of_tiny_problems_are_necessary(Tiny { model, task } in tiny(4)) {

@@ -5,7 +5,6 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use proptest::prelude::*;
-use proptest::test_runner::Config;
 use typelift::imagine::{self, imagine};
 use typelift::learn::{self, evidence_of, learn, observe};
 use typelift::model::{
@@ -15,12 +14,9 @@ use typelift::model::{
 use typelift::plan::Restrictions;
 use typelift::world::{Dataset, Parser, Reset, Scene, Trace, TraceAction, Transition, World};
 use typelift_kitchen::{Kitchen, demonstrations, hierarchy, tasks};
+use typelift_model::testing::cases;
 use typelift_tests::seen::{NAMES, any_order, renaming, seen, seen_atom, small_types};
 use typelift_tests::{dataset_of, kitchen_model, planning_task, shape};
-
-fn config(cases: u32) -> Config {
-    Config { cases, failure_persistence: None, ..Config::default() }
-}
 
 // What is observed in the kitchen.
 
@@ -140,7 +136,7 @@ fn assert_supported(LearnedModel { model, evidence, .. }: &LearnedModel, individ
 }
 
 proptest! {
-    #![proptest_config(config(500))]
+    #![proptest_config(cases(500))]
 
     /// The same step again and again, on objects of other types, with other atoms around: most of it becomes one
     /// action, whose parameters correspond to those of the clusters in ways that are far from obvious.
@@ -184,7 +180,7 @@ fn preconditions_held_whenever_an_action_was_demonstrated() {
 }
 
 proptest! {
-    #![proptest_config(config(24))]
+    #![proptest_config(cases(24))]
 
     #[test]
     fn preconditions_held_whenever_an_action_was_seen(seeds in prop::collection::vec(any::<u64>(), 1..4)) {
@@ -230,7 +226,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(config(12))]
+    #![proptest_config(cases(12))]
 
     /// Beyond the bound single pre-states are forgotten, but what is counted stays exact, and the same.
     #[test]
@@ -379,7 +375,7 @@ fn models_survive_being_written() {
 }
 
 proptest! {
-    #![proptest_config(config(16))]
+    #![proptest_config(cases(16))]
 
     #[test]
     fn models_of_anything_seen_survive_being_written(seeds in prop::collection::vec(any::<u64>(), 1..3)) {

@@ -5,7 +5,8 @@ use std::fs;
 use std::path::Path;
 
 use proptest::prelude::*;
-use proptest::test_runner::{Config, TestRunner};
+use proptest::test_runner::TestRunner;
+use typelift_model::testing::cases;
 use typelift_tests::readers::{BETWEEN_PARTS, Edit, Laws, READERS, mutated};
 
 /// The valid texts of a reader, by name.
@@ -28,9 +29,8 @@ impl fmt::Debug for Input {
 }
 
 /// The laws of a reader for inputs of this kind.
-fn hold(laws: Laws, cases: u32, inputs: impl Strategy<Value = Vec<u8>>) {
-    let config = Config { cases, failure_persistence: None, ..Config::default() };
-    let result = TestRunner::new(config).run(&inputs.prop_map(Input), |Input(bytes)| {
+fn hold(laws: Laws, usually: u32, inputs: impl Strategy<Value = Vec<u8>>) {
+    let result = TestRunner::new(cases(usually)).run(&inputs.prop_map(Input), |Input(bytes)| {
         laws(&bytes);
         Ok(())
     });

@@ -9,6 +9,7 @@ use typelift::imagine;
 use typelift::model::{ActionModel, Budget, Step, Symbol, Task};
 use typelift::plan::{Ban, Exclusion, Options as PlanOptions, Outcome, Planner, Restrictions, TieOrder, ground};
 use typelift_kitchen::tasks;
+use typelift_model::testing::cases;
 use typelift_tests::{kitchen_model, planning_task};
 
 /// Enough for every kitchen task; both searches stop at the same place.
@@ -85,7 +86,7 @@ fn plans_of_the_kitchen_are_the_same() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(cases(200))]
 
     #[test]
     fn plans_of_tiny_problems_are_the_same(

@@ -1,6 +1,7 @@
 //! Whatever the text, it is read or refused with a place that can be shown.
 
 use proptest::prelude::*;
+use typelift_model::testing::cases;
 use typelift_pddl::{
     Domain, PddlError, format as lay_out, read_domain, read_hierarchy, read_objects, read_plan, read_problem,
     read_trajectory,
@@ -63,7 +64,7 @@ fn text() -> impl Strategy<Value = String> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(512))]
+    #![proptest_config(cases(512))]
 
     #[test]
     fn any_text_is_read_or_refused(text in text()) {

@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 
 use proptest::prelude::*;
-use typelift_model::testing::{Tiny, all_instances, apply, tiny};
+use typelift_model::testing::{Tiny, all_instances, apply, cases, tiny};
 use typelift_model::{ActionModel, GroundAtom, Task, strict};
 use typelift_pddl::{ExportOptions, Exported, Level, compile_domain, compile_problem, export};
 
@@ -43,7 +43,7 @@ fn plain(tiny: &Tiny) -> ActionModel {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(cases(400))]
 
     #[test]
     fn the_same_states_can_be_reached(tiny in tiny(3)) {

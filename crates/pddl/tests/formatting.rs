@@ -1,6 +1,7 @@
 //! Laying texts out anew.
 
 use proptest::prelude::*;
+use typelift_model::testing::cases;
 use typelift_pddl::{Document, format};
 
 #[track_caller]
@@ -211,7 +212,7 @@ fn text() -> impl Strategy<Value = String> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(cases(2000))]
 
     #[test]
     fn words_and_comments_stay(text in text()) {

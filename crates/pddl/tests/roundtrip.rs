@@ -1,6 +1,7 @@
 //! What is printed reads as what it was printed from, in whatever case, and laid out anew.
 
 use proptest::prelude::*;
+use typelift_model::testing::cases;
 use typelift_model::{Atom, Hierarchy, Symbol, TypeId};
 use typelift_pddl::{
     Action, Amount, Derived, Domain, Formula, PddlAtom, PddlEffect, PddlError, PddlTerm, Problem, Signature, Typed,
@@ -273,7 +274,7 @@ fn word_with_end(ends: fn(char) -> bool, change: impl Fn(&str) -> String) -> imp
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 1000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(cases(1000))]
 
     #[test]
     fn what_is_printed_reads_the_same(definitions in definitions()) {

@@ -1,6 +1,7 @@
 //! Costs of several parts, which no file of PDDL has, are exported as one function.
 
 use proptest::prelude::*;
+use typelift_model::testing::cases;
 use typelift_model::{ActionModel, Cost, LiftedAtom, Symbol, Task};
 use typelift_pddl::{
     ExportError, ExportOptions, Exported, Level, MOST_FACTS, compile_domain, compile_problem, export, read_domain,
@@ -147,7 +148,7 @@ fn costs(model: &ActionModel, task: &Task) -> Vec<Option<u32>> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(cases(300))]
 
     #[test]
     fn each_instance_costs_what_it_cost(

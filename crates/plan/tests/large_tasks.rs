@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use proptest::prelude::*;
 use typelift_check::check;
-use typelift_model::testing::{Cheapest, Tiny, all_instances, cheapest, tiny};
+use typelift_model::testing::{Cheapest, Tiny, all_instances, cases, cheapest, tiny};
 use typelift_model::{
     ActionModel, ActionSchema, Budget, Effect, GroundAtom, Hierarchy, LiftedAtom, LiftedCall, Literal, Parameter, Plan,
     Provenance, Stop, Symbol, Task, Term,
@@ -35,7 +35,7 @@ fn padded(tiny: &Tiny) -> Tiny {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(cases(64))]
 
     #[test]
     fn what_does_not_matter_changes_nothing(tiny in tiny(4), lama in any::<bool>()) {

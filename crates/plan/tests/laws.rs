@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use proptest::prelude::*;
 use typelift_check::check;
 use typelift_model::testing::{
-    Cheapest, Instance, Tiny, all_instances, cheapest, reachable_atoms, reachable_instances, tiny,
+    Cheapest, Instance, Tiny, all_instances, cases, cheapest, reachable_atoms, reachable_instances, tiny,
 };
 use typelift_model::{
     ActionModel, ActionSchema, Atom, Budget, Effect, GroundAtom, LiftedCall, Literal, Plan, Provenance, Symbol, Task,
@@ -54,7 +54,7 @@ fn instance(task: &GroundTask, id: OpId, op: &Op) -> Instance {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 4_000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(cases(4_000))]
 
     #[test]
     fn grounding_is_enumeration(Tiny { model, task } in tiny(4)) {

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use proptest::prelude::*;
 use serde_json::json;
+use typelift_model::testing::cases;
 use typelift_model::{GroundAtom, Hierarchy, ParseConfig, Symbol};
 use typelift_world::{FileError, Parser, Scene, TaskFile, read_task, write_file, write_task};
 
@@ -136,7 +137,7 @@ prop_compose! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(cases(64))]
 
     #[test]
     fn reading_what_was_written_gives_it_back(task in any_task()) {

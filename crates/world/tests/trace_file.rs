@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use proptest::prelude::*;
+use typelift_model::testing::cases;
 use typelift_model::{GroundAtom, GroundCall, Hierarchy, ParseConfig, Pattern, Slot, Symbol};
 use typelift_world::{
     Entity, Expected, FileError, Parser, Recording, Relation, Scene, Snapshot, Trace, TraceAction, TraceHeader,
@@ -296,7 +297,7 @@ prop_compose! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(cases(64))]
 
     #[test]
     fn reading_what_was_written_gives_it_back(

@@ -113,15 +113,17 @@ fn assert_same(a: &Path, b: &Path) {
     }
 }
 
+/// `TYPELIFT_KILLS` has it killed another number of times.
 #[test]
-fn killed_ten_times_it_is_as_if_undisturbed() {
+fn killed_again_and_again_it_is_as_if_undisturbed() {
+    let kills: u32 = std::env::var("TYPELIFT_KILLS").map_or(10, |kills| kills.parse().expect("a number"));
     let folder = Folder::new();
     let command = format!("{TABLE} --runs 4 --jobs 2 -q -o");
     folder.run(&format!("{command} undisturbed")).succeeds();
     // Delays in milliseconds that look random and are not.
     let mut delay: u64 = 7;
     let mut killed = 0;
-    for _ in 0..10 {
+    for _ in 0..kills {
         delay = (delay * 73 + 41) % 331;
         let mut child = program(&format!("{command} killed"));
         child.current_dir(folder.path("")).stdout(Stdio::null()).stderr(Stdio::piped());

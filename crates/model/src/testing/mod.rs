@@ -3,10 +3,12 @@
 //!
 //! What is wrong with a text is told by a panic: whoever reads it is writing the test.
 
+mod cases;
 mod enumerate;
 mod tiny;
 mod written;
 
+pub use cases::cases;
 pub use enumerate::{
     Cheapest, Instance, Signed, all_instances, apply, cheapest, cheapest_without, reachable_atoms, reachable_instances,
 };

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use proptest::prelude::*;
+use typelift_model::testing::cases;
 use typelift_model::{ActionModel, Atom, GroundAtom, GroundCall, SplitMix64, State, Symbol, Task, TypeId};
 
 use super::limits::Limits;
@@ -223,7 +224,7 @@ fn limits() -> impl Strategy<Value = Limits> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 2_000, ..ProptestConfig::default() })]
+    #![proptest_config(cases(2_000))]
 
     #[test]
     fn what_is_compiled_means_the_same(
