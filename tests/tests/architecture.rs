@@ -176,7 +176,6 @@ const CIRCLES: &[(&str, &str, &[&str])] = &[
     ("model", "", &["action", "action_model", "axiom", "plan"]),
     ("pddl", "compile", &["block", "case", "invent", "solve"]),
     ("plan", "", &["distinct", "fdr", "ground", "level", "planner"]),
-    ("world", "", &["entity_line", "trace_file", "trace_line"]),
 ];
 
 #[test]

@@ -6,6 +6,15 @@ use typelift_model::{GroundAtom, GroundCall, Hierarchy, ParseConfig, State, Symb
 
 use crate::{Expected, FileError, Parser, Verdict};
 
+/// The first line of a trace.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct TraceHeader {
+    /// What is done, in words.
+    pub task: String,
+    /// What is to hold in the end, if it is said.
+    pub goal: Vec<GroundAtom>,
+}
+
 /// One action of a trace.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TraceAction {

@@ -9,7 +9,6 @@ use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserialize, DeserializeSeed, Deserializer, IntoDeserializer, MapAccess, Visitor};
 use typelift_model::{Symbol, did_you_mean};
 
-use crate::trace_line::SceneLine;
 use crate::{Entity, FileError};
 
 /// The keys that an entity must have.
@@ -109,9 +108,9 @@ pub(crate) struct UnreadKeys {
 }
 
 impl UnreadKeys {
-    /// Notes those of a scene's entities, each key where it is met first.
-    pub(crate) fn note(&mut self, file: &Path, line: Option<usize>, scene: &SceneLine) {
-        for EntityLine { entity, unread } in scene.entities.iter().flatten() {
+    /// Notes those of entities, each key where it is met first.
+    pub(crate) fn note(&mut self, file: &Path, line: Option<usize>, entities: &[EntityLine]) {
+        for EntityLine { entity, unread } in entities {
             for key in unread.iter().filter(|key| self.seen.insert((*key).clone())) {
                 let Some(question) = did_you_mean(key.as_str(), &OPTIONAL.map(Symbol::new)) else { continue };
                 let what = format!("entity {}: `{key}` is not read", entity.id);

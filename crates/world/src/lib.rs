@@ -26,7 +26,7 @@ mod trace_writer;
 mod trajectory_file;
 mod verdict;
 
-pub use dataset::{Dataset, Record, Trace, TraceAction, Transition};
+pub use dataset::{Dataset, Record, Trace, TraceAction, TraceHeader, Transition};
 pub use dataset_file::{read_any_trace, read_dataset};
 pub use environment::{Acted, Reset, World, WorldError};
 pub use file_error::FileError;
@@ -43,7 +43,7 @@ pub use task_file::{TASK_FORMAT, TaskError, TaskFile, check_goal, read_task, wri
 pub use text_file::{read_text, write_file};
 pub use trace_file::read_trace;
 pub use trace_line::{TRACE_FORMAT, TraceLine};
-pub use trace_reader::{TraceHeader, TraceItem, TraceReader};
+pub use trace_reader::{TraceItem, TraceReader};
 pub use trace_writer::TraceWriter;
 pub use trajectory_file::{TrajectoryContext, Unlisted, read_trajectory};
 pub use verdict::{Expected, Verdict};

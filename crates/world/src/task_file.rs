@@ -215,7 +215,7 @@ pub fn read_task(path: &Path) -> Result<TaskFile, FileError> {
     let ReadTask { goal, state, scenario, seed } = serde_json::from_str(&text).map_err(json)?;
     let mut unread = UnreadKeys::default();
     if let Some(state) = &state {
-        unread.note(path, None, state);
+        unread.note(path, None, state.entities());
     }
     let state = state.map(SceneLine::scene).transpose().map_err(|what| FileError::new(path, what))?;
     Ok(TaskFile { goal, state, scenario, seed, warnings: unread.warnings })

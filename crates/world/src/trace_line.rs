@@ -109,7 +109,7 @@ pub(crate) struct BodyLine {
 #[derive(Deserialize)]
 #[serde(expecting = "a state")]
 pub(crate) struct SceneLine {
-    pub(crate) entities: Option<Vec<EntityLine>>,
+    entities: Option<Vec<EntityLine>>,
     #[serde(default)]
     objects: Option<Objects>,
     #[serde(default)]
@@ -123,6 +123,11 @@ pub(crate) struct SceneLine {
 struct Objects(#[serde(deserialize_with = "json::distinct_map")] BTreeMap<Symbol, Symbol>);
 
 impl SceneLine {
+    /// The entities, if the scene lists any.
+    pub(crate) fn entities(&self) -> &[EntityLine] {
+        self.entities.as_deref().unwrap_or_default()
+    }
+
     /// The scene, or what is wrong with it.
     pub(crate) fn scene(self) -> Result<Scene, &'static str> {
         match (self.entities, self.objects) {

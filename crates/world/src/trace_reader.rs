@@ -4,21 +4,10 @@ use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 
-use typelift_model::GroundAtom;
-
 use crate::entity_line::UnreadKeys;
 use crate::line_reader::{LINE_LIMIT, Line, LineReader};
 use crate::trace_line::{BodyLine, HeaderLine, TRACE_FORMAT};
-use crate::{FileError, Recording, Scene, TraceAction, json};
-
-/// The first line of a trace.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct TraceHeader {
-    /// What is done, in words.
-    pub task: String,
-    /// What is to hold in the end, if it is said.
-    pub goal: Vec<GroundAtom>,
-}
+use crate::{FileError, Recording, Scene, TraceAction, TraceHeader, json};
 
 /// A part of a trace after the header.
 #[derive(Debug, Clone, PartialEq)]
@@ -214,7 +203,7 @@ impl<R: BufRead> TraceReader<R> {
         };
         match (body.state, body.action) {
             (Some(state), None) => {
-                self.unread.note(&path, Some(number), &state);
+                self.unread.note(&path, Some(number), state.entities());
                 Ok(Some(Body::State(state.scene().map_err(error)?)))
             }
             (None, Some(call)) => {
