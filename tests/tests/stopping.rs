@@ -4,7 +4,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use typelift::model::{Budget, Plan, Stop};
+use typelift::model::{Budget, MemoryLimit, MemoryProbe, Plan, Stop};
 use typelift::plan::{Options, Outcome, Planner, Restrictions, Strategy};
 use typelift_kitchen::{KitchenTask, tasks};
 use typelift_tests::{kitchen_model, planning_task};
@@ -15,6 +15,11 @@ fn stopping(period: usize) -> (Budget, Arc<AtomicUsize>) {
     let asked = questions.clone();
     let stop = move || (asked.fetch_add(1, Ordering::Relaxed) % period == period - 1).then_some(Stop::Time);
     (Budget { stop: Some(Arc::new(stop)), ..Budget::default() }, questions)
+}
+
+/// A budget of so many bytes, by the word of a probe.
+fn limited(bytes: u64, probe: &MemoryProbe) -> Budget {
+    Budget { memory: Some(MemoryLimit { bytes, probe: Arc::clone(probe) }), ..Budget::default() }
 }
 
 /// The first plans, and how often the search was stopped.
@@ -63,16 +68,19 @@ fn a_search_that_is_stopped_goes_on() {
 #[test]
 fn a_search_that_ran_out_of_memory_goes_on_with_more() {
     let mut planner = planner(&task(), 30, &Budget::unlimited()).expect("no limits");
+    // A probe to which every question is a byte.
+    let questions = Arc::new(AtomicUsize::new(0));
+    let probe: MemoryProbe = Arc::new(move || questions.fetch_add(1, Ordering::Relaxed) as u64);
     let mut bytes = 0;
     let mut found = Vec::new();
     let mut ends = 0;
     while found.len() < 30 {
-        match planner.next_plan(&Budget { bytes: Some(bytes), ..Budget::default() }) {
+        match planner.next_plan(&limited(bytes, &probe)) {
             Outcome::Solved(plan) => found.push(plan),
             outcome => {
                 assert_eq!(outcome, Outcome::Stopped(Stop::Memory));
                 ends += 1;
-                bytes += 10_000;
+                bytes += 3;
             }
         }
     }
@@ -97,8 +105,9 @@ fn whatever_comes_before_the_search_can_be_stopped_at_every_question() {
 }
 
 #[test]
-fn grounding_counts_what_it_holds() {
+fn grounding_asks_how_much_is_held() {
     let task = task();
-    let fits = |bytes| planner(&task, 1, &Budget { bytes: Some(bytes), ..Budget::default() }).is_ok();
-    assert!(fits(100_000_000) && !fits(1_000));
+    let probe: MemoryProbe = Arc::new(|| 1_000_000);
+    let ends = |bytes| planner(&task, 1, &limited(bytes, &probe)).map(drop);
+    assert_eq!((ends(1_000_001), ends(1_000_000)), (Ok(()), Err(Stop::Memory)));
 }

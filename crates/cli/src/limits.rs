@@ -1,13 +1,14 @@
 //! Limits: the only place where the program looks at the clock for an algorithm, and where Ctrl-C arrives.
 
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
-use typelift::model::{Budget, Stop};
+use typelift::model::{Budget, MemoryLimit, Stop};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
+use crate::memory::memory_held_from_now;
 use crate::quantities::{parse_bytes, parse_duration, parse_whole};
 
 /// When the program started: a time limit covers reading and grounding too.
@@ -31,7 +32,7 @@ pub(crate) struct Limits {
     /// Stop after this time, reading included: seconds, or 500ms, 30s, 5m
     #[arg(long, value_name = "TIME", value_parser = parse_duration, allow_negative_numbers = true)]
     time_limit: Option<Duration>,
-    /// Hold at most so much memory, the program itself included: mebibytes, or 500M, 2G
+    /// Come to hold at most so much more memory: mebibytes, or 500M, 2G
     #[arg(long, value_name = "SIZE", value_parser = parse_bytes, allow_negative_numbers = true)]
     memory_limit: Option<u64>,
 }
@@ -106,77 +107,24 @@ impl Limits {
         self.time_limit
     }
 
-    /// The bytes of memory allowed, if they are limited.
-    pub(crate) fn bytes(self) -> Option<u64> {
-        self.memory_limit
+    /// The memory that a call which begins now may come to hold, if it is limited: what is held already does not count.
+    pub(crate) fn memory_from_now(self) -> Option<MemoryLimit> {
+        let bytes = self.memory_limit?;
+        // Some more is held before it is asked again, and a table that grows is there twice for a while.
+        Some(MemoryLimit { bytes: bytes - bytes / 32, probe: memory_held_from_now() })
     }
 
-    /// The limit that is exceeded, if one is.
-    pub(crate) fn exceeded(self, clock: Clock) -> Option<Stop> {
-        if self.time_limit.is_some_and(|limit| clock.elapsed() >= limit) {
-            Some(Stop::Time)
-        } else if self.memory_limit.is_some_and(holds_more_than) {
-            Some(Stop::Memory)
-        } else {
-            None
-        }
-    }
-
-    /// The budget that these limits leave, counted from the program's start.
+    /// The budget that these limits leave a call that begins now; its time is counted from the program's start.
     pub(crate) fn budget(self, clock: Clock, interrupt: &Interrupt) -> Budget {
         let interrupt = interrupt.clone();
         let limit = self.time_limit;
-        let bytes = self.bytes();
-        let meter = MemoryMeter::default();
-        Budget {
-            expansions: None,
-            // What the algorithms count for themselves is the second best.
-            bytes: bytes.filter(|_| resident().is_none()),
-            stop: Some(Arc::new(move || {
-                if interrupt.is_set() {
-                    Some(Stop::Cancelled)
-                } else if limit.is_some_and(|limit| clock.elapsed() >= limit) {
-                    Some(Stop::Time)
-                } else if bytes.is_some_and(|bytes| meter.exceeds(bytes, clock)) {
-                    Some(Stop::Memory)
-                } else {
-                    None
-                }
-            })),
-        }
-    }
-}
-
-/// The bytes of memory that the program holds, if the system tells.
-fn resident() -> Option<u64> {
-    memory_stats::memory_stats().map(|stats| stats.physical_mem as u64)
-}
-
-/// Whether the program holds more than so many bytes of memory, as far as the system tells.
-pub(crate) fn holds_more_than(bytes: u64) -> bool {
-    resident().is_some_and(|resident| resident > bytes)
-}
-
-/// Asks the system how much memory the program holds: what an algorithm counts for itself leaves out what was given back
-/// and may not be used again.
-#[derive(Default)]
-struct MemoryMeter {
-    /// When it is asked again, in microseconds of the program's clock.
-    next: AtomicU64,
-}
-
-impl MemoryMeter {
-    /// Asking takes a few microseconds.
-    const INTERVAL: u64 = 1_000;
-
-    /// Whether the program holds more than so many bytes, as far as the system tells, and it was time to ask.
-    fn exceeds(&self, bytes: u64, clock: Clock) -> bool {
-        let now = clock.elapsed().as_micros() as u64;
-        if now < self.next.load(Ordering::Relaxed) {
-            return false;
-        }
-        self.next.store(now + Self::INTERVAL, Ordering::Relaxed);
-        // Some more is held before it is asked again, and a table that grows is there twice for a while.
-        holds_more_than(bytes - bytes / 32)
+        let stop = move || {
+            if interrupt.is_set() {
+                Some(Stop::Cancelled)
+            } else {
+                limit.is_some_and(|limit| clock.elapsed() >= limit).then_some(Stop::Time)
+            }
+        };
+        Budget { expansions: None, memory: self.memory_from_now(), stop: Some(Arc::new(stop)) }
     }
 }

@@ -16,6 +16,7 @@ mod kitchen;
 mod lab;
 mod learn;
 mod limits;
+mod memory;
 mod narrate;
 mod pddl;
 mod plan;

@@ -16,6 +16,7 @@ use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::keep_inputs;
 use crate::limits::{Clock, Interrupt, Limits};
+use crate::memory::memory_held_from_now;
 use crate::plan_text::{imagined_note, numbered_steps, plan_file, plan_size};
 use crate::planning_options::PlanningOptions;
 use crate::style::{BAD, HEAD, HINT, count};
@@ -101,6 +102,7 @@ struct Begun {
 impl Plan {
     pub(crate) fn run(&self, clock: Clock, quiet: bool) -> Result<Exit, Failure> {
         let interrupt = Interrupt::install()?;
+        let memory = memory_held_from_now();
         let budget = self.planning.limits.budget(clock, &interrupt, None);
         let Begun { model, task, output, read, proposal } = self.begin_watched(clock, &budget, quiet)?;
         // Whoever waits for the answer need not wait for the memory to be freed.
@@ -146,7 +148,7 @@ impl Plan {
         let searched = matches!(last, Outcome::Unsolvable | Outcome::NoMorePlans);
         let explanation = (plans.is_empty() && searched).then(|| proposal.explain());
         if self.planning.json {
-            let answer = answer(&last, &plans, &proposal, explanation.as_ref(), clock.elapsed() - read);
+            let answer = answer(&last, &plans, &proposal, explanation.as_ref(), memory(), clock.elapsed() - read);
             writeln!(out, "{}", serde_json::to_string_pretty(&answer).unwrap_or_default())?;
             return Ok(exit);
         }
@@ -313,6 +315,7 @@ fn answer(
     plans: &[FoundPlan],
     proposal: &Proposal,
     explanation: Option<&Explanation>,
+    bytes: u64,
     took: Duration,
 ) -> Answer {
     let report = proposal.report();
@@ -332,7 +335,7 @@ fn answer(
         ground_actions: report.ground_actions,
         expansions: report.expansions,
         evaluations: report.evaluations,
-        bytes: report.bytes,
+        bytes,
         seconds: took.as_secs_f64(),
         explanation: explanation.map(ToString::to_string),
     }

@@ -6,13 +6,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
 
-use typelift::model::Stop;
+use typelift::model::{MemoryLimit, Stop};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::limits::{Clock, Limits, holds_more_than};
+use crate::limits::{Clock, Interrupt, Limits};
 
-/// What a time limit is overstepped by at most: this, and a twentieth.
+/// What a time limit is overstepped by at most: this, and a twentieth; a limit of memory by a twentieth.
 const GRACE: Duration = Duration::from_millis(50);
 
 /// How often it is asked how much memory is held.
@@ -34,9 +34,10 @@ pub(crate) fn watched<T>(
 /// Does some work, all of which is in vain if it takes more than is allowed.
 pub(crate) fn within<T>(clock: Clock, limits: Limits, work: impl FnOnce() -> Result<T, Failure>) -> Result<T, Failure> {
     let stopped = |stop: Stop| Failure::new(stop.into(), stop);
+    let budget = limits.budget(clock, &Interrupt::default());
     let done = watched(clock, limits, move |stop| stopped(stop).report(), work)?;
     // The watchdog leaves some grace.
-    match limits.exceeded(clock) {
+    match budget.stopped() {
         Some(stop) => Err(stopped(stop)),
         None => Ok(done),
     }
@@ -53,12 +54,13 @@ impl Watchdog {
     /// Ends the program soon after a limit is reached; before, `last_words` says why.
     fn start(clock: Clock, limits: Limits, last_words: impl FnOnce(Stop) -> Exit + Send + 'static) -> Self {
         let watchdog = Self::default();
-        if limits.time().is_none() && limits.bytes().is_none() {
+        let (time, memory) = (limits.time(), limits.memory_from_now());
+        if time.is_none() && memory.is_none() {
             return watchdog;
         }
         let decided = watchdog.decided.clone();
         thread::spawn(move || {
-            let Some(stop) = wait(clock, limits, &decided) else { return };
+            let Some(stop) = wait(clock, time, memory, &decided) else { return };
             if !decided.swap(true, Ordering::SeqCst) {
                 std::process::exit(last_words(stop) as i32);
             }
@@ -77,8 +79,14 @@ impl Watchdog {
 }
 
 /// Waits until a limit is reached; none if it is called off before.
-fn wait(clock: Clock, limits: Limits, decided: &AtomicBool) -> Option<Stop> {
-    let latest = limits.time().map(|limit| limit.saturating_add(limit / 20).saturating_add(GRACE));
+fn wait(
+    clock: Clock,
+    time: Option<Duration>,
+    memory: Option<MemoryLimit>,
+    decided: &AtomicBool,
+) -> Option<Stop> {
+    let latest = time.map(|limit| limit.saturating_add(limit / 20).saturating_add(GRACE));
+    let most = memory.map(|MemoryLimit { bytes, probe }| MemoryLimit { bytes: bytes.saturating_add(bytes / 20), probe });
     loop {
         let left = latest.map(|latest| latest.saturating_sub(clock.elapsed()));
         if decided.load(Ordering::SeqCst) {
@@ -87,10 +95,10 @@ fn wait(clock: Clock, limits: Limits, decided: &AtomicBool) -> Option<Stop> {
         if left == Some(Duration::ZERO) {
             return Some(Stop::Time);
         }
-        if limits.bytes().is_some_and(holds_more_than) {
+        if most.as_ref().is_some_and(MemoryLimit::is_reached) {
             return Some(Stop::Memory);
         }
-        let interval = limits.bytes().map(|_| INTERVAL);
+        let interval = most.as_ref().map(|_| INTERVAL);
         thread::sleep(left.into_iter().chain(interval).min().unwrap_or(INTERVAL));
     }
 }

@@ -30,7 +30,7 @@ impl Limits {
         let stop = move || {
             if stopper() { Some(Stop::Cancelled) } else { (begun.elapsed() >= limit).then_some(Stop::Time) }
         };
-        Budget { expansions: Some(self.max_expansions), bytes: None, stop: Some(Arc::new(stop)) }
+        Budget { expansions: Some(self.max_expansions), memory: None, stop: Some(Arc::new(stop)) }
     }
 }
 

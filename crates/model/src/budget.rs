@@ -52,14 +52,45 @@ impl<'de> Deserialize<'de> for Stop {
     }
 }
 
+/// Tells how many bytes are held. It is asked as often as the time is: whoever has to ask the system repeats the last
+/// answer for a while.
+pub type MemoryProbe = Arc<dyn Fn() -> u64 + Send + Sync>;
+
+/// How much memory may be held, by the word of whoever can tell.
+#[derive(Clone)]
+pub struct MemoryLimit {
+    /// The bytes allowed: as soon as so many are held, the work ends.
+    pub bytes: u64,
+    /// Tells how many are held.
+    pub probe: MemoryProbe,
+}
+
 /// Limits that an algorithm polls. The default has none.
+///
+/// No algorithm counts what it holds. A budget without a `memory` limit has none, whatever is planned; a limit is as exact
+/// as its probe, and as often as it is asked. A probe usually tells what the whole process holds, above what it held when
+/// the work began. Then everything that happens in the process meanwhile counts: searches that run at the same time share
+/// one limit, and what ended work has left behind does not count, as it was there before.
+///
+/// ```
+/// use std::sync::Arc;
+/// use typelift_model::{Budget, MemoryLimit, Stop};
+///
+/// # fn bytes_held_by_this_process() -> u64 { 5_000_000 }
+/// let before = bytes_held_by_this_process();
+/// let probe = Arc::new(move || bytes_held_by_this_process().saturating_sub(before));
+/// let budget = Budget { memory: Some(MemoryLimit { bytes: 200 << 20, probe }), ..Budget::unlimited() };
+/// assert_eq!(budget.stopped(), None);
+///
+/// let nothing = MemoryLimit { bytes: 0, probe: Arc::new(|| 0) };
+/// assert_eq!(Budget { memory: Some(nothing), ..budget }.stopped(), Some(Stop::Memory));
+/// ```
 #[derive(Clone, Default)]
 pub struct Budget {
     /// Nodes that one search may expand.
     pub expansions: Option<u64>,
-    /// Bytes that grounding and search may hold together, by their own count of what grows without bound: ground actions
-    /// and nodes. What a whole process may hold is for `stop` to tell.
-    pub bytes: Option<u64>,
+    /// Memory that may be held.
+    pub memory: Option<MemoryLimit>,
     /// Asked now and then; an answer ends the work.
     pub stop: Option<Arc<dyn Fn() -> Option<Stop> + Send + Sync>>,
 }
@@ -77,7 +108,21 @@ impl Budget {
 
     /// Asks whether to stop.
     pub fn stopped(&self) -> Option<Stop> {
-        self.stop.as_ref().and_then(|stop| stop())
+        let is_full = |memory: &MemoryLimit| memory.is_reached().then_some(Stop::Memory);
+        self.stop.as_ref().and_then(|stop| stop()).or_else(|| self.memory.as_ref().and_then(is_full))
+    }
+}
+
+impl MemoryLimit {
+    /// Whether as much is held as is allowed.
+    pub fn is_reached(&self) -> bool {
+        (self.probe)() >= self.bytes
+    }
+}
+
+impl fmt::Debug for MemoryLimit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("MemoryLimit").field("bytes", &self.bytes).finish_non_exhaustive()
     }
 }
 
@@ -85,7 +130,7 @@ impl fmt::Debug for Budget {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Budget")
             .field("expansions", &self.expansions)
-            .field("bytes", &self.bytes)
+            .field("memory", &self.memory)
             .field("stop", &self.stop.is_some())
             .finish()
     }

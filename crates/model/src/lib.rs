@@ -44,7 +44,7 @@ pub use action::{ActionSchema, Cost, Effect, GroundCall, LiftedCall, Literal, Pa
 pub use action_model::{ActionModel, ModelPddlNames, UniqueNames, describe_replacements, schema_name};
 pub use atom::{Atom, AtomTextError, EQUALS, GroundAtom, LiftedAtom, Term, check_name};
 pub use axiom::Axiom;
-pub use budget::{Budget, Stop};
+pub use budget::{Budget, MemoryLimit, MemoryProbe, Stop};
 pub use evidence::{
     Cluster, ClusterKey, Evidence, MOST_PARAMETERS, NegativeKey, PRE_STATE_BOUND, PreStates, Unexplained,
     WITNESS_BOUND, Witness,

@@ -2,10 +2,9 @@
 
 use std::hash::{BuildHasher, Hash, Hasher};
 
-use typelift_model::{ActionSchema, Budget, HashMap, Stop, Symbol};
+use typelift_model::{ActionSchema, HashMap, Symbol};
 
 use crate::ground::Op;
-use crate::memory::held;
 
 /// Distinct ground actions.
 pub(crate) struct Distinct<'a> {
@@ -15,30 +14,25 @@ pub(crate) struct Distinct<'a> {
     by_hash: HashMap<u64, usize>,
     /// For each action the one before it with the same hash.
     earlier: Vec<Option<usize>>,
-    /// The bytes they hold, roughly.
-    bytes: u64,
 }
 
 impl<'a> Distinct<'a> {
     pub(crate) fn new(schemas: &'a [ActionSchema]) -> Self {
-        Self { schemas, ops: Vec::new(), by_hash: HashMap::default(), earlier: Vec::new(), bytes: 0 }
+        Self { schemas, ops: Vec::new(), by_hash: HashMap::default(), earlier: Vec::new() }
     }
 
-    /// Keeps an action unless there is the same one; `others` are bytes that are held besides.
-    pub(crate) fn insert(&mut self, op: Op, others: u64, budget: &Budget) -> Result<(), Stop> {
+    /// Keeps an action unless there is the same one.
+    pub(crate) fn insert(&mut self, op: Op) {
         let hash = self.hash(&op);
         let mut known = self.by_hash.get(&hash).copied();
         while let Some(index) = known {
             if self.is_same(&self.ops[index], &op) {
-                return Ok(());
+                return;
             }
             known = self.earlier[index];
         }
         self.earlier.push(self.by_hash.insert(hash, self.ops.len()));
-        // With its share of the two tables.
-        self.bytes += op.bytes() + 48;
         self.ops.push(op);
-        if budget.bytes.is_some_and(|limit| self.bytes + others > limit) { Err(Stop::Memory) } else { Ok(()) }
     }
 
     fn call<'b>(&'b self, op: &'b Op) -> (&'b Symbol, impl Iterator<Item = Symbol> + 'b) {
@@ -65,18 +59,8 @@ impl<'a> Distinct<'a> {
             && a_args.eq(b_args)
     }
 
-    /// The actions, in the order in which they came, and the bytes they hold.
-    pub(crate) fn into_ops(self) -> (Vec<Op>, u64) {
-        (self.ops, self.bytes)
-    }
-}
-
-impl Op {
-    /// Bytes it holds, roughly.
-    fn bytes(&self) -> u64 {
-        let facts = [&self.preconditions, &self.negative, &self.adds, &self.deletes];
-        let conditions = self.conditional.iter().flat_map(|effect| [&effect.positive, &effect.negative]);
-        let lists: usize = facts.into_iter().chain(conditions).map(|list| held(list)).sum();
-        (std::mem::size_of::<Self>() + held(&self.objects) + held(&self.conditional) + lists) as u64
+    /// The actions, in the order in which they came.
+    pub(crate) fn into_ops(self) -> Vec<Op> {
+        self.ops
     }
 }

@@ -44,13 +44,9 @@ impl Join<'_> {
                 self.pending.push(Pending { missing: missing.len(), fact: effect.fact });
             }
         }
-        self.bytes += op.bytes();
         match schema.source {
             Source::Action(..) => self.ops.push(op),
             Source::Axiom(_) => self.axioms.push(op),
-        }
-        if self.budget.bytes.is_some_and(|limit| self.bytes > limit) {
-            return Err(Stop::Memory);
         }
         self.poll.check(1)
     }

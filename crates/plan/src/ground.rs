@@ -94,7 +94,6 @@ pub struct GroundTask {
     asked: Goal,
     unreachable: Vec<GroundAtom>,
     ops_before_deduplication: usize,
-    bytes: u64,
 }
 
 /// Grounds a task: what is reachable without deletes, nothing else.
@@ -108,7 +107,7 @@ pub fn ground(
     order: TieOrder,
     budget: &Budget,
 ) -> Result<GroundTask, Stop> {
-    let Reached { mut facts, ops: mut raw, axioms: raw_axioms, mut bytes } = reach(model, task, restrictions, budget)?;
+    let Reached { mut facts, ops: mut raw, axioms: raw_axioms } = reach(model, task, restrictions, budget)?;
     let derived = model.derived_predicates();
     let basic = task.init.atoms.iter().filter(|atom| !derived.contains(&atom.predicate));
     let init: Vec<FactId> = basic.filter_map(|atom| facts.find(atom)).collect();
@@ -138,15 +137,14 @@ pub fn ground(
     let mut poll = Poll::new(budget);
     for op in raw {
         poll.check(1 + op.effects.len())?;
-        bytes -= op.bytes();
         let schema = &model.actions[op.schema];
         let touches_goal = touches_goal(&op);
         let objects: Vec<Symbol> = op.objects.iter().map(|&o| facts.name(o).clone()).collect();
         // Where what it costs is not stated, an action cannot be used.
         let Some(cost) = schema.cost.of(&objects, &task.values) else { continue };
-        ops.insert(resolve(op, objects, cost, &facts, touches_goal), bytes, budget)?;
+        ops.insert(resolve(op, objects, cost, &facts, touches_goal));
     }
-    let (mut ops, bytes) = ops.into_ops();
+    let mut ops = ops.into_ops();
     let actions = ops.len();
     let mut strata = Vec::with_capacity(raw_axioms.len());
     for axiom in raw_axioms {
@@ -172,7 +170,6 @@ pub fn ground(
         asked: task.goal.clone(),
         unreachable,
         ops_before_deduplication,
-        bytes,
     })
 }
 
@@ -292,11 +289,6 @@ impl GroundTask {
     /// The number of ground actions.
     pub fn op_count(&self) -> usize {
         self.actions
-    }
-
-    /// The bytes that the ground actions hold, roughly.
-    pub(crate) fn bytes(&self) -> u64 {
-        self.bytes
     }
 
     /// The number of ground actions with those that only repeat another's call, preconditions and effect.

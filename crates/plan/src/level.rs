@@ -68,9 +68,9 @@ impl Level {
         } else {
             Symmetry::default()
         };
-        let mut space = Space::new(fdr, symmetry, this.ground.bytes());
+        let space = Space::new(fdr, symmetry);
         let (strategy, stage) = (options.strategy, Stage::First);
-        let search = strategy.search(stage, &this.ground, &mut space, options.plans, budget)?;
+        let search = strategy.search(stage, &this.ground, &space, options.plans, budget)?;
         let past = Report::default();
         this.running = Some(Running { space, strategy, stage, search, found: HashSet::default(), past });
         Ok(this)
@@ -170,7 +170,7 @@ impl Running {
         if (strategy, stage) == (self.strategy, self.stage) {
             return Ok(());
         }
-        let search = strategy.search(stage, ground, &mut self.space, plans, budget)?;
+        let search = strategy.search(stage, ground, &self.space, plans, budget)?;
         self.past = self.report();
         (self.strategy, self.stage, self.search) = (strategy, stage, search);
         Ok(())

@@ -23,7 +23,6 @@ mod heuristic;
 mod landmark;
 mod level;
 mod lists;
-mod memory;
 mod outcome;
 mod pattern;
 mod planner;

@@ -42,11 +42,6 @@ impl<T: Copy> Lists<T> {
         Self { ends, items }
     }
 
-    /// The bytes that they hold.
-    pub(crate) fn bytes(&self) -> u64 {
-        (self.ends.capacity() * 4 + self.items.capacity() * std::mem::size_of::<T>()) as u64
-    }
-
     /// How many lists there are.
     pub(crate) fn len(&self) -> usize {
         self.ends.len()

@@ -143,12 +143,9 @@ impl Planner {
             self.level.close();
             self.scopes.advance();
         }
-        // The ground actions of the last level are held until there are others.
-        let held = self.level.ground().bytes();
-        let budget = Budget { bytes: budget.bytes.map(|bytes| bytes.saturating_sub(held)), ..budget.clone() };
         loop {
             let task = self.scopes.restrict(&self.task);
-            let level = Level::new(&self.model, &task, &self.restrictions, &self.options, &budget)?;
+            let level = Level::new(&self.model, &task, &self.restrictions, &self.options, budget)?;
             if self.scopes.is_whole() || level.is_open() {
                 (self.level, self.over, self.expansions_before) = (level, false, 0);
                 return Ok(());
@@ -200,7 +197,7 @@ impl Planner {
 }
 
 impl Report {
-    /// This, and what was counted after it. What was held is no more.
+    /// This, and what was counted after it.
     fn and(self, later: Self) -> Self {
         Self {
             ground_actions: self.ground_actions + later.ground_actions,
@@ -208,7 +205,6 @@ impl Report {
             expansions: self.expansions + later.expansions,
             evaluations: self.evaluations + later.evaluations,
             reopened: self.reopened + later.reopened,
-            bytes: later.bytes,
         }
     }
 }

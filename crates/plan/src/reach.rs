@@ -12,7 +12,6 @@ use typelift_model::{ActionModel, Budget, HashMap, HashSet, Stop, Task};
 
 use crate::Restrictions;
 use crate::fact::{FactId, Facts, ObjectId};
-use crate::memory::held;
 use crate::pattern::{Arg, Compiled, Compiler, Pattern, fluents};
 use crate::poll::Poll;
 
@@ -41,8 +40,6 @@ pub(crate) struct Reached {
     pub(crate) facts: Facts,
     pub(crate) ops: Vec<RawOp>,
     pub(crate) axioms: Vec<RawOp>,
-    /// Bytes that they hold, roughly.
-    pub(crate) bytes: u64,
 }
 
 /// The facts and ground actions reachable from the task's initial state without deletes.
@@ -65,7 +62,6 @@ pub(crate) fn reach(
     }
     let mut join = Join {
         restrictions,
-        budget,
         facts,
         fluents: fluents(&schemas),
         ops: Vec::new(),
@@ -76,7 +72,6 @@ pub(crate) fn reach(
         waiting: HashMap::default(),
         pending: Vec::new(),
         trigger: None,
-        bytes: 0,
         poll: Poll::new(budget),
     };
     let derived = model.derived_predicates();
@@ -106,7 +101,7 @@ pub(crate) fn reach(
             }
         }
     }
-    Ok(Reached { facts: join.facts, ops: join.ops, axioms: join.axioms, bytes: join.bytes })
+    Ok(Reached { facts: join.facts, ops: join.ops, axioms: join.axioms })
 }
 
 /// An effect whose condition is not reached yet.
@@ -117,7 +112,6 @@ pub(crate) struct Pending {
 
 pub(crate) struct Join<'a> {
     pub(crate) restrictions: &'a Restrictions,
-    pub(crate) budget: &'a Budget,
     pub(crate) facts: Facts,
     /// The predicates that anything changes.
     pub(crate) fluents: HashSet<u32>,
@@ -132,7 +126,6 @@ pub(crate) struct Join<'a> {
     pub(crate) pending: Vec<Pending>,
     /// The fact being joined: preconditions before the one it came through may not match it again.
     pub(crate) trigger: Option<FactId>,
-    pub(crate) bytes: u64,
     /// Counts joins and ground actions.
     pub(crate) poll: Poll<'a>,
 }
@@ -274,15 +267,5 @@ impl Join<'_> {
             }
         }
         Ok(())
-    }
-}
-
-impl RawOp {
-    /// Bytes it holds, roughly.
-    pub(crate) fn bytes(&self) -> u64 {
-        let conditions = self.effects.iter().flat_map(|effect| [&effect.condition, &effect.negative_condition]);
-        let facts = [&self.preconditions, &self.negative].into_iter().chain(conditions);
-        let lists: usize = facts.map(|list| held(list)).sum();
-        (std::mem::size_of::<Self>() + held(&self.objects) + held(&self.effects) + lists) as u64
     }
 }

@@ -72,12 +72,6 @@ impl Relaxation {
         builder.finish(goal, poll)
     }
 
-    /// The bytes that its lists hold.
-    pub(crate) fn bytes(&self) -> u64 {
-        let lists = [&self.preconditions, &self.adds, &self.needed_by, &self.achievers];
-        lists.into_iter().map(Lists::bytes).sum::<u64>() + self.action.len() as u64 * 8
-    }
-
     /// The number of propositions.
     pub(crate) fn len(&self) -> usize {
         self.facts as usize + self.negated.len()

@@ -88,11 +88,10 @@ impl Strategy {
         self,
         stage: Stage,
         ground: &GroundTask,
-        space: &mut Space,
+        space: &Space,
         plans: usize,
         budget: &Budget,
     ) -> Result<Box<dyn Search>, Stop> {
-        space.bytes = space.task_bytes;
         let mut poll = Poll::new(budget);
         Ok(match self {
             Self::OrderedLandmarks => Box::new(ordered(ground, space, plans, budget)?),
@@ -159,11 +158,10 @@ struct RelaxedPlans {
 }
 
 impl RelaxedPlans {
-    fn new(way: Way, space: &mut Space, poll: &mut Poll<'_>) -> Result<Self, Stop> {
+    fn new(way: Way, space: &Space, poll: &mut Poll<'_>) -> Result<Self, Stop> {
         let relaxation = Arc::new(Relaxation::new(&space.task, Negatives::Propositions, poll)?);
         let costs = way.measure.of(&space.task);
         let undominated = Arc::new(Undominated::of(&relaxation, &costs, poll)?);
-        space.bytes += relaxation.bytes() + undominated.bytes() + costs.len() as u64 * 4;
         Ok(Self { relaxation, undominated, costs })
     }
 
@@ -181,7 +179,7 @@ struct Lama {
 }
 
 impl Lama {
-    fn new(way: Way, ground: &GroundTask, space: &mut Space, poll: &mut Poll<'_>) -> Result<Self, Stop> {
+    fn new(way: Way, ground: &GroundTask, space: &Space, poll: &mut Poll<'_>) -> Result<Self, Stop> {
         let relaxed = RelaxedPlans::new(way, space, poll)?;
         let landmarks = Arc::new(LandmarkGraph::new(ground, &space.task, &relaxed.relaxation, poll)?);
         Ok(Self { way, relaxed, landmarks })

@@ -16,11 +16,11 @@ const MOST_CHOICES: u64 = 5_000;
 /// Plans that are looked for.
 const PLANS: usize = 3;
 
-/// What planning may spend: expansions, bytes, and how often it may ask whether to stop.
+/// What planning may spend: expansions, and how often it may ask whether to stop.
 fn narrow() -> Budget {
     let asked = AtomicU64::new(0);
     let stop = move || (asked.fetch_add(1, Ordering::Relaxed) > 50).then_some(Stop::Cancelled);
-    Budget { expansions: Some(200), bytes: Some(32 << 20), stop: Some(Arc::new(stop)) }
+    Budget { expansions: Some(200), memory: None, stop: Some(Arc::new(stop)) }
 }
 
 /// The first plans; each is valid by the plainest semantics.

@@ -13,6 +13,7 @@ use crate::columns::Columns;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::limits::Clock;
+use crate::memory::memory_held_from_now;
 use crate::quantities::{parse_bytes, parse_duration};
 use crate::style::{HEAD, count, wrapped};
 
@@ -41,7 +42,7 @@ pub(super) struct GrowthLimits {
     /// Cut a point after this time: seconds, or 500ms, 30s, 5m
     #[arg(long, value_name = "TIME", default_value = "60s", value_parser = parse_duration, allow_negative_numbers = true)]
     time_limit: Duration,
-    /// Cut a point at so much memory for ground actions and nodes: mebibytes, or 500M, 2G
+    /// Cut a point when it holds so much memory more than at its start: mebibytes, or 500M, 2G
     #[arg(long, value_name = "SIZE", default_value = "2G", value_parser = parse_bytes, allow_negative_numbers = true)]
     memory_limit: u64,
 }
@@ -151,7 +152,8 @@ pub(super) struct LabMeasure {
 
 impl LabMeasure {
     pub(super) fn run(&self) -> Result<Exit, Failure> {
-        let measured = measure(self.point, Allowance { seconds: self.seconds, bytes: self.bytes });
+        let allowance = Allowance { seconds: self.seconds, bytes: self.bytes };
+        let measured = measure(self.point, allowance, &memory_held_from_now());
         let mut out = std::io::stdout().lock();
         serde_json::to_writer(&mut out, &measured).map_err(std::io::Error::from)?;
         writeln!(out)?;

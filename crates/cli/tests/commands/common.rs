@@ -89,7 +89,7 @@ impl Folder {
         // It may end before it has read everything.
         let _ = child.stdin.take().expect("piped").write_all(input.as_bytes());
         let output = child.wait_with_output().expect("it ends");
-        let text = |bytes: &[u8]| without_times(&String::from_utf8_lossy(bytes));
+        let text = |bytes: &[u8]| without_measurements(&String::from_utf8_lossy(bytes));
         let ended = Ended {
             code: output.status.code().unwrap_or_else(|| panic!("{command}: {}", output.status)),
             out: text(&output.stdout),
@@ -154,8 +154,8 @@ impl Transcript {
     }
 }
 
-/// The text with every time as `N`: `12 ms`, `0.3 s`, `"seconds": 0.01`.
-fn without_times(text: &str) -> String {
+/// The text with every time and every count of bytes as `N`: `12 ms`, `0.3 s`, `"seconds": 0.01`, `"bytes": 4096`.
+fn without_measurements(text: &str) -> String {
     let mut kept = String::with_capacity(text.len());
     let mut rest = text;
     while let Some(start) = rest.find(|c: char| c.is_ascii_digit()) {
@@ -163,9 +163,9 @@ fn without_times(text: &str) -> String {
         kept.push_str(before);
         let end = number.find(|c: char| !c.is_ascii_digit() && !".e-".contains(c)).unwrap_or(number.len());
         let (number, after) = number.split_at(end);
-        let is_time = [" ms", " s."].iter().any(|unit| after.starts_with(unit))
-            || ["seconds\":", "seconds\": "].iter().any(|key| before.ends_with(key));
-        kept.push_str(if is_time { "N" } else { number });
+        let is_measured = [" ms", " s."].iter().any(|unit| after.starts_with(unit))
+            || ["seconds\":", "seconds\": ", "\"bytes\": "].iter().any(|key| before.ends_with(key));
+        kept.push_str(if is_measured { "N" } else { number });
         rest = after;
     }
     kept + rest

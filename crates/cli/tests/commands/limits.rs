@@ -112,3 +112,59 @@ fn limits_cover_reading() {
     }
     assert!(!folder.names().contains(&"p".to_owned()));
 }
+
+/// Lamps of which an action turns two over: of 24, all even subsets can be lit, but never a single one, and nothing but the
+/// search finds that out.
+#[cfg(target_os = "linux")]
+fn lamps(folder: &Folder) {
+    folder.write(
+        "domain.pddl",
+        "(define (domain lamps) (:requirements :negative-preconditions :conditional-effects) (:predicates (lit ?l))
+           (:action turn :parameters (?a ?b) :precondition (not (= ?a ?b))
+            :effect (and (when (lit ?a) (not (lit ?a))) (when (not (lit ?a)) (lit ?a))
+                         (when (lit ?b) (not (lit ?b))) (when (not (lit ?b)) (lit ?b)))))",
+    );
+    let all: String = (0..24).fold(String::new(), |text, i| text + &format!(" l{i}"));
+    let dark: String = (1..24).fold(String::new(), |text, i| text + &format!(" (not (lit l{i}))"));
+    folder.write(
+        "problem.pddl",
+        format!("(define (problem one) (:domain lamps) (:objects{all}) (:init) (:goal (and (lit l0){dark})))"),
+    );
+}
+
+/// The most resident memory that a command held, in megabytes, as Linux tells while it runs; and its exit code.
+#[cfg(target_os = "linux")]
+fn peak(folder: &Folder, command: &str) -> (u64, Option<i32>) {
+    use std::process::Stdio;
+
+    let mut program = crate::common::program(command);
+    program.current_dir(folder.path("")).stdout(Stdio::null()).stderr(Stdio::null());
+    let mut child = program.spawn().expect("the program starts");
+    let status = format!("/proc/{}/status", child.id());
+    let mut kilobytes = 0;
+    loop {
+        let told = std::fs::read_to_string(&status).unwrap_or_default();
+        let line = told.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+        let number = line.and_then(|line| line.trim().strip_suffix(" kB")?.trim().parse().ok());
+        kilobytes = number.unwrap_or(kilobytes);
+        if let Some(status) = child.try_wait().expect("it is ours") {
+            return (kilobytes >> 10, status.code());
+        }
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+}
+
+/// That the limit is used, and held: a search that would grow for ever ends near it, whatever its strategy holds.
+#[cfg(target_os = "linux")]
+#[test]
+fn memory_stays_at_its_limit() {
+    let folder = Folder::new();
+    lamps(&folder);
+    let (at_rest, _) = peak(&folder, "plan domain.pddl problem.pddl --max-expansions 1 -o p");
+    for search in ["lama", "ordered-landmarks"] {
+        let command = format!("plan domain.pddl problem.pddl --search {search} --memory-limit 100 -o p");
+        let (peak, code) = peak(&folder, &command);
+        assert_eq!(code, Some(22), "{command}");
+        assert!((85..=110 + at_rest).contains(&peak), "{command}: {peak} MB, and {at_rest} MB at rest");
+    }
+}

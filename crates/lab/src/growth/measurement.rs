@@ -106,9 +106,6 @@ pub struct Measurement {
     /// Nodes expanded.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub expansions: Option<u64>,
-    /// Bytes held by the search, by its own count.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub search_bytes: Option<u64>,
     /// Steps of the plan.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub steps: Option<u64>,
@@ -135,7 +132,6 @@ impl Measurement {
             peak_bytes: None,
             ground_actions: None,
             expansions: None,
-            search_bytes: None,
             steps: None,
             actions: None,
             individual_actions: None,

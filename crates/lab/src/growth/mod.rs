@@ -22,6 +22,7 @@ mod room;
 use std::fmt;
 
 use serde_json::{Value, json};
+use typelift::model::MemoryProbe;
 
 use crate::error::LabError;
 use crate::learned::kitchen_model;
@@ -39,11 +40,11 @@ const OBJECTS_OF_GOALS: usize = 96;
 /// The foods of the goal where something else grows.
 const DISHES: usize = 3;
 
-/// Measures one point in this process.
+/// Measures one point in this process; `memory` tells how many bytes it has come to hold.
 ///
 /// # Panics
 /// If the kitchen's own demonstrations cannot be learned from.
-pub fn measure(point: Point, allowance: Allowance) -> Measurement {
+pub fn measure(point: Point, allowance: Allowance, memory: &MemoryProbe) -> Measurement {
     let size = usize::try_from(point.size).unwrap_or(usize::MAX);
     let (stock, dishes) = match point.series {
         Series::Transitions => return learning::measure(point.size, allowance.seconds),
@@ -51,7 +52,7 @@ pub fn measure(point: Point, allowance: Allowance) -> Measurement {
         Series::Kitchens => (Stock::kitchens(size.max(32)), DISHES),
         Series::Goals => (Stock::storeroom(OBJECTS_OF_GOALS), size.min(20)),
     };
-    planning::measure(&kitchen_model(false), &room::task(stock, dishes), allowance)
+    planning::measure(&kitchen_model(false), &room::task(stock, dishes), allowance, memory)
 }
 
 /// Measures a point in a process of its own.
@@ -123,12 +124,17 @@ mod tests {
 
     use super::*;
 
+    /// Always one mebibyte.
+    fn little() -> MemoryProbe {
+        std::sync::Arc::new(|| 1 << 20)
+    }
+
     const ALLOWANCE: Allowance = Allowance { seconds: 60.0, bytes: 1 << 30 };
 
     #[test]
     fn small_points_are_solved() {
         for (point, steps) in [("storeroom 32", 15), ("kitchens 32", 15), ("goals 1", 5)] {
-            let measured = measure(point.parse().expect(point), ALLOWANCE);
+            let measured = measure(point.parse().expect(point), ALLOWANCE, &little());
             assert_eq!((measured.end, measured.steps), (End::Finished, Some(steps)), "{point}");
             assert!(measured.ground_actions > Some(50) && measured.seconds > 0.0, "{point}");
         }
@@ -138,7 +144,7 @@ mod tests {
     #[test]
     fn a_few_kitchens_are_no_harder_than_one() {
         for point in ["kitchens 64", "kitchens 100", "kitchens 150"] {
-            let measured = measure(point.parse().expect(point), ALLOWANCE);
+            let measured = measure(point.parse().expect(point), ALLOWANCE, &little());
             assert!(measured.end == End::Finished && measured.expansions < Some(100), "{point}: {measured:?}");
         }
     }
@@ -146,8 +152,8 @@ mod tests {
     #[test]
     fn what_is_not_allowed_cuts_a_point() {
         let point = "storeroom 100".parse().expect("a point");
-        assert_eq!(measure(point, Allowance { seconds: 0.0, ..ALLOWANCE }).end, End::Stopped(Stop::Time));
-        assert_eq!(measure(point, Allowance { bytes: 1, ..ALLOWANCE }).end, End::Stopped(Stop::Memory));
+        assert_eq!(measure(point, Allowance { seconds: 0.0, ..ALLOWANCE }, &little()).end, End::Stopped(Stop::Time));
+        assert_eq!(measure(point, Allowance { bytes: 1, ..ALLOWANCE }, &little()).end, End::Stopped(Stop::Memory));
     }
 
     #[test]

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use typelift::agent::{Options, ProposeError, propose};
 use typelift::imagine;
-use typelift::model::{ActionModel, Budget, Stop, Task};
+use typelift::model::{ActionModel, Budget, MemoryLimit, MemoryProbe, Stop, Task};
 use typelift::plan::{Outcome, Restrictions};
 
 use super::measurement::{End, Measurement};
@@ -15,7 +15,7 @@ use super::processor_time::Stopwatch;
 pub struct Allowance {
     /// Seconds on a processor.
     pub seconds: f64,
-    /// Bytes, by the planner's own count of ground actions and nodes.
+    /// Bytes that planning may come to hold.
     pub bytes: u64,
 }
 
@@ -24,14 +24,14 @@ const REPEAT: (f64, usize) = (0.5, 5);
 
 /// Plans the task as the agent would, with imagination. The shortest of a few times is kept, since whatever else the
 /// machine does only makes it longer.
-pub(crate) fn measure(model: &ActionModel, task: &Task, allowance: Allowance) -> Measurement {
+pub(crate) fn measure(model: &ActionModel, task: &Task, allowance: Allowance, memory: &MemoryProbe) -> Measurement {
     let begun = Stopwatch::start();
-    let mut best = once(model, task, allowance);
+    let mut best = once(model, task, allowance, memory);
     for _ in 1..REPEAT.1 {
         if best.end != End::Finished || begun.seconds() > REPEAT.0 {
             break;
         }
-        let next = once(model, task, allowance);
+        let next = once(model, task, allowance, memory);
         if next.seconds < best.seconds {
             best = next;
         }
@@ -40,10 +40,11 @@ pub(crate) fn measure(model: &ActionModel, task: &Task, allowance: Allowance) ->
     best
 }
 
-fn once(model: &ActionModel, task: &Task, allowance: Allowance) -> Measurement {
+fn once(model: &ActionModel, task: &Task, allowance: Allowance, memory: &MemoryProbe) -> Measurement {
     let begun = Stopwatch::start();
     let stop = move || (begun.seconds() >= allowance.seconds).then_some(Stop::Time);
-    let budget = Budget { expansions: None, bytes: Some(allowance.bytes), stop: Some(Arc::new(stop)) };
+    let memory = MemoryLimit { bytes: allowance.bytes, probe: Arc::clone(memory) };
+    let budget = Budget { expansions: None, memory: Some(memory), stop: Some(Arc::new(stop)) };
     let options = Options { imagine: Some(imagine::Options::default()), ..Options::default() };
     let proposal = propose(model, task, &Restrictions::default(), &options, &budget);
     let seconds = begun.seconds();
@@ -62,7 +63,6 @@ fn once(model: &ActionModel, task: &Task, allowance: Allowance) -> Measurement {
     Measurement {
         ground_actions: report.map(|r| r.ground_actions),
         expansions: report.map(|r| r.expansions),
-        search_bytes: report.map(|r| r.bytes),
         steps: steps.map(|steps| steps as u64),
         ..Measurement::new(end, seconds)
     }

@@ -19,7 +19,7 @@ pub struct GrowthResult {
     pub quick: bool,
     /// The seconds allowed for a point.
     pub seconds_allowed: f64,
-    /// The bytes allowed for a point, by the planner's own count.
+    /// The bytes that a point was allowed to come to hold.
     pub bytes_allowed: u64,
     /// By series and size.
     pub points: Vec<Measured>,
@@ -90,7 +90,7 @@ const MODEL: Quantity = Quantity {
     of: |m| Some(m.model_bytes? as f64 / MEBI),
 };
 
-const COLUMNS: [&str; 12] = [
+const COLUMNS: [&str; 11] = [
     "series",
     "size",
     "end",
@@ -98,7 +98,6 @@ const COLUMNS: [&str; 12] = [
     "peak_bytes",
     "ground_actions",
     "expansions",
-    "search_bytes",
     "steps",
     "actions",
     "individual_actions",
@@ -186,7 +185,7 @@ impl GrowthResult {
                 m.end.word().to_owned(),
                 format!("{:.6}", m.seconds),
             ];
-            let planned = [m.peak_bytes, m.ground_actions, m.expansions, m.search_bytes, m.steps];
+            let planned = [m.peak_bytes, m.ground_actions, m.expansions, m.steps];
             let learned = [m.actions, m.individual_actions, m.model_bytes];
             csv.row(first.into_iter().chain(planned.into_iter().chain(learned).map(optional)));
         }

@@ -20,7 +20,6 @@ pub(crate) use successor::SuccessorGenerator;
 use crate::fact::FactId;
 use crate::ground::{ConditionalEffect, GroundTask, Op, OpId};
 use crate::lists::Lists;
-use crate::memory::held;
 use crate::poll::Poll;
 
 /// The value of each variable.
@@ -147,17 +146,6 @@ impl Fdr {
         let negative_goal = this.none(task.negative_goal());
         (this.goal, this.negative_goal) = (goal.unwrap_or_default(), negative_goal.unwrap_or_default());
         Ok(this)
-    }
-
-    /// The bytes that its columns hold.
-    pub(crate) fn bytes(&self) -> u64 {
-        let actions = &self.actions;
-        let lists = [&actions.preconditions, &actions.negative, &actions.deletes, &actions.adds];
-        let when: usize = actions.when.iter().map(|when| held(&when.positive) + held(&when.negative)).sum();
-        let rows = self.action_count() * 9 + actions.when.len() * std::mem::size_of::<When>() + when;
-        lists.into_iter().map(Lists::bytes).sum::<u64>()
-            + actions.conditional.bytes()
-            + (rows + self.places.len() * std::mem::size_of::<Place>()) as u64
     }
 
     fn place(&self, fact: FactId) -> Place {

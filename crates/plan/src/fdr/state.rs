@@ -81,16 +81,6 @@ impl Registry {
             *value = (state[field.word as usize] >> field.shift & field.mask) as u32;
         }
     }
-
-    /// The number of states.
-    pub(crate) fn len(&self) -> usize {
-        self.arena.len() / self.words
-    }
-
-    /// The bytes that a state takes, with its share of the table.
-    pub(crate) fn bytes_per_state(&self) -> u64 {
-        self.words as u64 * 8 + 8
-    }
 }
 
 fn hash(words: &[u64]) -> u64 {
@@ -114,6 +104,6 @@ mod tests {
             registry.unpack(id, &mut values);
             assert_eq!(&values, state);
         }
-        assert_eq!(registry.len(), 50);
+        assert_eq!(registry.arena.len(), 50 * registry.words);
     }
 }

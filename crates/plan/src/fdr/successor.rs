@@ -2,7 +2,6 @@
 //! planning system*, JAIR 26, 2006, section 5.3.1), without testing every action.
 
 use super::{ActionIndex, Assignment, Fdr, Values};
-use crate::memory::held;
 
 /// The place of a node; none where nothing follows.
 type NodeIndex = Option<u32>;
@@ -76,17 +75,6 @@ impl SuccessorGenerator {
     fn push(&mut self, node: Node) -> NodeIndex {
         self.nodes.push(node);
         Some(self.nodes.len() as u32 - 1)
-    }
-
-    /// The bytes that its nodes hold.
-    pub(crate) fn bytes(&self) -> u64 {
-        let of_node = |node: &Node| match node {
-            Node::Test(_) => 0,
-            Node::Here(actions) => held(actions),
-            Node::Ask { choice: Choice::Table(nodes), .. } => held(nodes),
-            Node::Ask { choice: Choice::Few(nodes), .. } => held(nodes),
-        };
-        self.nodes.iter().map(|node| (std::mem::size_of::<Node>() + of_node(node)) as u64).sum()
     }
 
     /// The actions applicable in a state, in the order in which they are tried.

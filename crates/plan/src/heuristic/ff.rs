@@ -195,10 +195,6 @@ impl Heuristic for Ff {
         self.explore(task, reached).then(|| self.relaxed_plan())
     }
 
-    fn bytes(&self) -> u64 {
-        self.start.len() as u64 * 16 + self.needed_by.bytes() + self.prop_costs.len() as u64 * 13
-    }
-
     fn preferred(&self) -> &[ActionIndex] {
         &self.preferred
     }

@@ -210,13 +210,6 @@ impl LmCut {
 }
 
 impl Heuristic for LmCut {
-    fn bytes(&self) -> u64 {
-        let lists = [&self.preconditions, &self.adds, &self.needed_by, &self.achievers, &self.parts];
-        self.relaxation.bytes()
-            + lists.into_iter().map(Lists::bytes).sum::<u64>()
-            + (self.action.len() * 16 + self.left.len() * 8 + self.prop_costs.len() * 5) as u64
-    }
-
     fn estimate(&mut self, task: &Fdr, reached: Reached<'_>, _memory: &mut [u32]) -> Option<u32> {
         self.left.copy_from_slice(&self.action_costs);
         self.explore(task, reached);

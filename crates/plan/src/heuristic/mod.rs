@@ -52,11 +52,6 @@ pub(crate) trait Heuristic: Debug + Send {
     /// Estimates a state, and fills its memory; `None` if no plan leads from it to the goal.
     fn estimate(&mut self, task: &Fdr, reached: Reached<'_>, memory: &mut [u32]) -> Option<u32>;
 
-    /// The bytes that it holds for itself.
-    fn bytes(&self) -> u64 {
-        0
-    }
-
     /// The actions with which what the estimate of the last state rests on begins. Some may not be applicable.
     fn preferred(&self) -> &[ActionIndex] {
         &[]

@@ -22,12 +22,6 @@ pub(crate) struct Undominated {
 }
 
 impl Undominated {
-    /// The bytes that its lists hold.
-    pub(crate) fn bytes(&self) -> u64 {
-        let lists = [&self.preconditions, &self.adds, &self.needed_by];
-        lists.into_iter().map(Lists::bytes).sum::<u64>() + self.action.len() as u64 * 12
-    }
-
     /// Leaves out what is dominated, with these costs of the actions.
     ///
     /// # Errors

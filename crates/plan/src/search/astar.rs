@@ -84,14 +84,6 @@ impl AStar {
         &self.memories[at..at + self.memory_len]
     }
 
-    fn bytes(&self) -> u64 {
-        // A node with its share of the open list.
-        let node = std::mem::size_of::<Node>() + self.memory_len * 4 + 24;
-        self.registry.len() as u64 * (self.registry.bytes_per_state() + 8)
-            + self.nodes.len() as u64 * node as u64
-            + self.heuristic.bytes()
-    }
-
     /// Estimates the state in `after`, and adds a node of it unless enough equal ones are known that are at least as good.
     fn insert(&mut self, space: &Space, g: u64, came_by: Option<(NodeId, ActionIndex)>, actions: u64) {
         let (state, is_new) = self.registry.insert(&self.after);
@@ -200,10 +192,8 @@ impl Search for AStar {
             space.successors.applicable(&space.task, &self.values, &mut applicable);
             for &action in &applicable {
                 // A node that is left half expanded is expanded again: what is known already is not inserted twice.
-                let is_full = budget.bytes.is_some_and(|limit| self.bytes() + space.bytes > limit);
                 let work = 1 + space.task.domains.len() + space.task.axioms.len();
-                let stop = if is_full { Some(Stop::Memory) } else { poll.stopped(work) };
-                if let Some(stop) = stop {
+                if let Some(stop) = poll.stopped(work) {
                     self.open.push(Reverse((0, 0, id)));
                     return Found::Stopped(stop);
                 }
@@ -222,7 +212,6 @@ impl Search for AStar {
             expansions: self.expansions,
             evaluations: self.evaluations,
             reopened: self.reopened,
-            bytes: self.bytes(),
             ..Report::default()
         }
     }

@@ -80,7 +80,6 @@ impl Restarting {
             current => {
                 if let Some(past) = current.take() {
                     self.past = added(self.past, past.report());
-                    self.past.bytes = 0;
                 }
                 self.number += 1;
                 self.left = FIRST_ATTEMPT * luby(self.number);
@@ -103,24 +102,22 @@ impl Search for Interleaved {
     fn next(&mut self, space: &Space, cost_bound: Option<u64>, budget: &Budget) -> Found {
         let begun = self.report().expansions;
         loop {
-            let spent = self.report();
-            let allowed = budget.expansions.map(|allowed| (begun + allowed).saturating_sub(spent.expansions));
+            let spent = self.report().expansions;
+            let allowed = budget.expansions.map(|allowed| (begun + allowed).saturating_sub(spent));
             if allowed == Some(0) {
                 return Found::Stopped(Stop::Expansions);
             }
             let expansions = allowed.map_or(self.left, |allowed| allowed.min(self.left));
-            let mut turn = Budget { expansions: Some(expansions), ..budget.clone() };
+            let turn = Budget { expansions: Some(expansions), ..budget.clone() };
             let (found, own) = match self.lasting.get_mut(self.turn) {
                 Some(search) => {
-                    let before = search.report();
-                    turn.bytes = budget.bytes.map(|limit| limit.saturating_sub(spent.bytes - before.bytes));
-                    (search.next(space, cost_bound, &turn), search.report().expansions - before.expansions)
+                    let before = search.report().expansions;
+                    (search.next(space, cost_bound, &turn), search.report().expansions - before)
                 }
                 None => {
-                    let before = self.restarting.report();
-                    turn.bytes = budget.bytes.map(|limit| limit.saturating_sub(spent.bytes - before.bytes));
+                    let before = self.restarting.report().expansions;
                     let found = self.restarting.next(space, cost_bound, &turn);
-                    (found, self.restarting.report().expansions - before.expansions)
+                    (found, self.restarting.report().expansions - before)
                 }
             };
             self.left = self.left.saturating_sub(own);
@@ -149,7 +146,6 @@ fn added(a: Report, b: Report) -> Report {
         expansions: a.expansions + b.expansions,
         evaluations: a.evaluations + b.evaluations,
         reopened: a.reopened + b.reopened,
-        bytes: a.bytes + b.bytes,
         ..a
     }
 }

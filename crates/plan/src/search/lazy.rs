@@ -46,9 +46,6 @@ struct Node {
     is_dead_end: bool,
 }
 
-/// Bytes of an entry of the open list.
-const ENTRY: u64 = 8;
-
 /// A lazy search.
 #[derive(Debug)]
 pub(crate) struct Lazy {
@@ -126,16 +123,6 @@ impl Lazy {
     /// The same, with successors in another order.
     pub(crate) fn shuffled(self, shuffler: Shuffler) -> Self {
         Self { shuffler: Some(shuffler), ..self }
-    }
-
-    fn bytes(&self) -> u64 {
-        let node = self.registry.bytes_per_state() + std::mem::size_of::<Node>() as u64 + self.memory_len as u64 * 4;
-        let heuristics: u64 = self.heuristics.iter().map(|heuristic| heuristic.bytes()).sum();
-        self.nodes.len() as u64 * node
-            + self.open.len() as u64 * ENTRY
-            + heuristics
-            + self.preferred.len() as u64 * 8
-            + self.costs.len() as u64 * 4
     }
 
     fn plan(&self, goal: StateId) -> Vec<ActionIndex> {
@@ -275,9 +262,6 @@ impl Search for Lazy {
             if limit.is_some_and(|limit| self.expansions >= limit) {
                 return Found::Stopped(Stop::Expansions);
             }
-            if budget.bytes.is_some_and(|limit| self.bytes() + space.bytes > limit) {
-                return Found::Stopped(Stop::Memory);
-            }
             if let Some(stop) = poll.stopped(work) {
                 return Found::Stopped(stop);
             }
@@ -321,7 +305,6 @@ impl Search for Lazy {
             expansions: self.expansions,
             evaluations: self.evaluations,
             reopened: self.reopened,
-            bytes: self.bytes(),
             ..Report::default()
         }
     }

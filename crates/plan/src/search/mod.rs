@@ -29,8 +29,6 @@ pub struct Report {
     pub evaluations: u64,
     /// Nodes opened again, having been reached on a smaller g.
     pub reopened: u64,
-    /// Bytes held by the search's nodes and tables, by its own count.
-    pub bytes: u64,
 }
 
 /// What is searched.
@@ -39,18 +37,13 @@ pub(crate) struct Space {
     pub(crate) task: Fdr,
     pub(crate) successors: SuccessorGenerator,
     pub(crate) symmetry: Symmetry,
-    /// Bytes that the task holds, ground and in columns.
-    pub(crate) task_bytes: u64,
-    /// Bytes that the task holds, and what its searches share.
-    pub(crate) bytes: u64,
 }
 
 impl Space {
-    /// What is searched is this ground task, which holds so many bytes.
-    pub(crate) fn new(task: Fdr, symmetry: Symmetry, ground_bytes: u64) -> Self {
+    /// What is searched is this task.
+    pub(crate) fn new(task: Fdr, symmetry: Symmetry) -> Self {
         let successors = SuccessorGenerator::new(&task);
-        let bytes = ground_bytes + task.bytes() + successors.bytes();
-        Self { task, successors, symmetry, task_bytes: bytes, bytes }
+        Self { task, successors, symmetry }
     }
 }
 

@@ -19,7 +19,6 @@ struct List<T> {
 #[derive(Debug)]
 pub(crate) struct Alternation<T> {
     lists: Vec<List<T>>,
-    len: usize,
 }
 
 impl<T: Copy> Alternation<T> {
@@ -28,14 +27,13 @@ impl<T: Copy> Alternation<T> {
         let kinds = if prefers { &[false, true][..] } else { &[false] };
         let list = |key, preferred_only| List { key, preferred_only, turns: 0, buckets: BTreeMap::new() };
         let lists = (0..keys).flat_map(|key| kinds.iter().map(move |&preferred_only| list(key, preferred_only)));
-        Self { lists: lists.collect(), len: 0 }
+        Self { lists: lists.collect() }
     }
 
     /// Adds an entry under all of its keys.
     pub(crate) fn push(&mut self, keys: &[u64], preferred: bool, entry: T) {
         for list in self.lists.iter_mut().filter(|list| preferred || !list.preferred_only) {
             list.buckets.entry(keys[list.key]).or_default().push_back(entry);
-            self.len += 1;
         }
     }
 
@@ -48,7 +46,6 @@ impl<T: Copy> Alternation<T> {
         if bucket.get().is_empty() {
             bucket.remove();
         }
-        self.len -= 1;
         entry
     }
 
@@ -57,10 +54,5 @@ impl<T: Copy> Alternation<T> {
         for list in self.lists.iter_mut().filter(|list| list.preferred_only) {
             list.turns -= BOOST;
         }
-    }
-
-    /// How many entries there are, each as often as it is listed.
-    pub(crate) fn len(&self) -> usize {
-        self.len
     }
 }
