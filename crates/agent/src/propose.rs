@@ -2,9 +2,9 @@
 
 use thiserror::Error;
 use typelift_check::{Invalid, check};
-use typelift_imagine::{Imagination, imagine};
+use typelift_imagine::{Imagination, imagine_from};
 use typelift_model::{ActionModel, Budget, Plan, Stop, Task, strict};
-use typelift_plan::{Explanation, ExternalFailure, Outcome, Planner, Report, Restrictions};
+use typelift_plan::{Explanation, ExternalFailure, Outcome, Planner, Reachable, Report, Restrictions};
 
 use crate::options::Options;
 
@@ -15,6 +15,8 @@ pub struct Proposal {
     pub model: ActionModel,
     /// What was imagined.
     pub imagination: Imagination,
+    /// How often what can be reached was worked out before planning began.
+    groundings: u64,
     /// What was planned with.
     searched: Searched,
     /// How the search ended.
@@ -34,8 +36,11 @@ impl Proposal {
     /// The counts of grounding and search; nothing if somebody else planned.
     pub fn report(&self) -> Report {
         match &self.searched {
-            Searched::Own(planner) => planner.report(),
-            Searched::External(_) => Report::default(),
+            Searched::Own(planner) => {
+                let report = planner.report();
+                Report { groundings: self.groundings + report.groundings, ..report }
+            }
+            Searched::External(_) => Report { groundings: self.groundings, ..Report::default() },
         }
     }
 
@@ -113,15 +118,25 @@ pub fn propose(
     options: &Options,
     budget: &Budget,
 ) -> Result<Proposal, ProposeError> {
-    let imagination = match &options.imagine {
-        Some(imagining) => imagine(model, task, restrictions, imagining, budget)?,
-        None => Imagination::default(),
-    };
-    let widened = imagination.added_to(model);
-    let model = if options.strict { strict(&widened) } else { widened };
+    let applied = |model: ActionModel| if options.strict { strict(&model) } else { model };
+    let mut planned_with = applied(Imagination::default().added_to(model));
+    let mut imagination = Imagination::default();
+    let (mut reachable, mut groundings) = (None, 0);
+    if let Some(imagining) = &options.imagine {
+        let reached = Reachable::with_few_objects(&planned_with, task, restrictions, budget)?;
+        imagination = imagine_from(&reached, model, task, restrictions, imagining, budget)?;
+        if imagination.actions.is_empty() {
+            // Planning starts where imagination ended.
+            reachable = Some(reached);
+        } else {
+            groundings = reached.computed();
+            planned_with = applied(imagination.added_to(model));
+        }
+    }
+    let model = planned_with;
     let (searched, outcome) = match &options.planner {
         None => {
-            let mut planner = Planner::new(&model, task, restrictions, &options.plan, budget)?;
+            let mut planner = Planner::starting_from(reachable, &model, task, restrictions, &options.plan, budget)?;
             let outcome = planner.next_plan(budget);
             (Searched::Own(Box::new(planner)), outcome)
         }
@@ -131,7 +146,7 @@ pub fn propose(
             (Searched::External(Box::new(asked)), outcome)
         }
     };
-    let proposal = Proposal { model, imagination, searched, outcome };
+    let proposal = Proposal { model, imagination, groundings, searched, outcome };
     proposal.checked(proposal.outcome.clone())?;
     Ok(proposal)
 }

@@ -24,7 +24,7 @@ mod substitute;
 use std::collections::{BTreeSet, VecDeque};
 
 use typelift_model::{ActionModel, ActionSchema, Budget, GroundAtom, HashMap, Stop, Symbol, Task, TypeId, UniqueNames};
-use typelift_plan::{Restrictions, TieOrder, ground, reaches_goals_with_fewer_objects};
+use typelift_plan::{Reachable, Restrictions};
 
 pub use guard::Guard;
 
@@ -77,8 +77,8 @@ impl Context<'_> {
 
 /// Algorithm 2: actions for the goal atoms that cannot be reached; none if all can.
 ///
-/// Work goes through a queue of unreachable atoms, each once. The cost is that of one grounding, plus, for each atom,
-/// a look at every action, and at the instances of its unreachable preconditions.
+/// Work goes through a queue of unreachable atoms, each once. The cost is that of working out what is reachable, plus, for
+/// each atom, a look at every action, and at the instances of its unreachable preconditions.
 ///
 /// # Errors
 /// [`Stop`] if the budget ends it.
@@ -89,12 +89,28 @@ pub fn imagine(
     options: &Options,
     budget: &Budget,
 ) -> Result<Imagination, Stop> {
-    if reaches_goals_with_fewer_objects(model, task, restrictions, budget)? {
+    let reachable = Reachable::with_few_objects(model, task, restrictions, budget)?;
+    imagine_from(&reachable, model, task, restrictions, options, budget)
+}
+
+/// The same, where what is reachable is known already: with this model or its [strict](typelift_model::strict) form, with
+/// which the same is reachable; and with all of the task's objects, unless fewer reach all goals.
+///
+/// # Errors
+/// [`Stop`] if the budget ends it.
+pub fn imagine_from(
+    reachable: &Reachable,
+    model: &ActionModel,
+    task: &Task,
+    restrictions: &Restrictions,
+    options: &Options,
+    budget: &Budget,
+) -> Result<Imagination, Stop> {
+    let mut queue: VecDeque<GroundAtom> = reachable.unreached_goals().iter().cloned().collect();
+    if queue.is_empty() {
         return Ok(Imagination::default());
     }
-    let ground = ground(model, task, restrictions, TieOrder::default(), budget)?;
-    let context = Context { model, task, restrictions, reached: ground.reached_by_predicate() };
-    let mut queue: VecDeque<GroundAtom> = ground.unreachable_goals().iter().cloned().collect();
+    let context = Context { model, task, restrictions, reached: reachable.atoms_by_predicate() };
     let mut met: BTreeSet<GroundAtom> = queue.iter().cloned().collect();
     let mut imagination = Imagination::default();
     let mut imagined = Vec::new();

@@ -6,6 +6,7 @@ use typelift_model::{GroundAtom, LiftedAtom, Symbol, Term, TypeId};
 
 use crate::Context;
 use crate::create::Proposal;
+use crate::potential::are_distinct;
 
 /// Instances of one precondition that are considered at most, the first in order.
 const INSTANCE_BOUND: usize = 10_000;
@@ -27,16 +28,8 @@ pub(crate) fn get_unreachable_preconds(context: &Context<'_>, proposal: &Proposa
 /// Whether an atom is an instance of a lifted one under the choices.
 fn is_instance(atom: &GroundAtom, lifted: &LiftedAtom, proposal: &Proposal<'_>, choices: &[Vec<&Symbol>]) -> bool {
     let mut binding: Vec<Option<&Symbol>> = vec![None; choices.len()];
-    let fits = atom.arity() == lifted.arity()
-        && lifted.args.iter().zip(&atom.args).all(|(term, object)| match term {
-            Term::Const(name) => name == object,
-            Term::Param(p) => {
-                let chosen = choices[*p as usize].binary_search(&object).is_ok();
-                chosen && *binding[*p as usize].get_or_insert(object) == object
-            }
-        });
-    let bound = |p: u32| binding[p as usize];
-    fits && proposal.schema.distinct.iter().all(|&(a, b)| bound(a).is_none() || bound(a) != bound(b))
+    lifted.bind(atom, &mut binding, |p, object, _| choices[p].binary_search(&object).is_ok()).is_some()
+        && are_distinct(proposal.schema, &binding)
 }
 
 /// The objects that may take each parameter's place, sorted.

@@ -17,19 +17,19 @@ pub(crate) struct Choices<'a> {
 impl Choices<'_> {
     /// Calls `each` with all objects, those bound already first, for every choice. Positive literals are joined in
     /// their order; parameters that none mentions range over all objects of their type.
-    pub(crate) fn for_each(&self, bound: &[Symbol], each: &mut impl FnMut(&[Symbol])) {
-        let mut binding: Vec<Option<Symbol>> = bound.iter().cloned().map(Some).collect();
+    pub(crate) fn for_each<'b>(&'b self, bound: &'b [Symbol], each: &mut impl FnMut(&[Symbol])) {
+        let mut binding: Vec<Option<&Symbol>> = bound.iter().map(Some).collect();
         binding.resize(bound.len() + self.parameters.len(), None);
         let positive: Vec<&LiftedAtom> =
             self.condition.iter().filter(|l| l.positive && !l.atom.is_equality()).map(|l| &l.atom).collect();
         self.join(&positive, bound.len(), &mut binding, each);
     }
 
-    fn join(
-        &self,
-        open: &[&LiftedAtom],
+    fn join<'b>(
+        &'b self,
+        open: &[&'b LiftedAtom],
         first: usize,
-        binding: &mut Vec<Option<Symbol>>,
+        binding: &mut [Option<&'b Symbol>],
         each: &mut impl FnMut(&[Symbol]),
     ) {
         let Some((pattern, rest)) = open.split_first() else { return self.complete(first, binding, each) };
@@ -42,39 +42,23 @@ impl Choices<'_> {
         let from = Atom::new(pattern.predicate.clone(), Vec::new());
         let facts = self.state.atoms.range((Bound::Included(from), Bound::Unbounded));
         for fact in facts.take_while(|fact| fact.predicate == pattern.predicate) {
-            let before = binding.clone();
-            if self.bind(pattern, fact, first, binding) {
+            let may_take = |p: usize, object: &Symbol, _: &_| self.may_take(first, p, object);
+            if let Some(bound) = pattern.bind(fact, binding, may_take) {
                 self.join(rest, first, binding, each);
+                bound.into_iter().for_each(|p| binding[p] = None);
             }
-            *binding = before;
         }
     }
 
-    fn bind(&self, pattern: &LiftedAtom, fact: &GroundAtom, first: usize, binding: &mut [Option<Symbol>]) -> bool {
-        pattern.arity() == fact.arity()
-            && pattern.args.iter().zip(&fact.args).all(|(term, object)| match term {
-                Term::Const(name) => name == object,
-                Term::Param(p) => {
-                    let p = *p as usize;
-                    match &binding[p] {
-                        Some(known) => known == object,
-                        None => {
-                            binding[p] = Some(object.clone());
-                            p.checked_sub(first).is_some_and(|own| self.fits(own, object))
-                        }
-                    }
-                }
-            })
+    /// Whether an object may take the place of a parameter; not of one that should be bound already.
+    fn may_take(&self, first: usize, parameter: usize, object: &Symbol) -> bool {
+        let Some(own) = parameter.checked_sub(first) else { return false };
+        self.state.objects.get(object).is_some_and(|ty| self.hierarchy.is_a(*ty, self.parameters[own].ty))
     }
 
-    fn fits(&self, own: usize, object: &Symbol) -> bool {
-        let ty = self.state.objects.get(object);
-        ty.is_some_and(|ty| self.hierarchy.is_a(*ty, self.parameters[own].ty))
-    }
-
-    fn complete(&self, first: usize, binding: &mut Vec<Option<Symbol>>, each: &mut impl FnMut(&[Symbol])) {
+    fn complete<'b>(&'b self, first: usize, binding: &mut [Option<&'b Symbol>], each: &mut impl FnMut(&[Symbol])) {
         let Some(free) = binding.iter().position(Option::is_none) else {
-            let objects: Vec<Symbol> = binding.iter().flatten().cloned().collect();
+            let objects: Vec<Symbol> = binding.iter().copied().flatten().cloned().collect();
             let holds = |l: &Literal| self.state.holds(&l.atom.map(|term| term.object(&objects))) == l.positive;
             if self.condition.iter().all(holds) {
                 each(&objects);
@@ -82,8 +66,8 @@ impl Choices<'_> {
             return;
         };
         for object in self.state.objects.keys() {
-            if free.checked_sub(first).is_some_and(|own| self.fits(own, object)) {
-                binding[free] = Some(object.clone());
+            if self.may_take(first, free, object) {
+                binding[free] = Some(object);
                 self.complete(first, binding, each);
             }
         }
@@ -91,10 +75,10 @@ impl Choices<'_> {
     }
 }
 
-fn ground(pattern: &LiftedAtom, binding: &[Option<Symbol>]) -> Option<GroundAtom> {
+fn ground(pattern: &LiftedAtom, binding: &[Option<&Symbol>]) -> Option<GroundAtom> {
     let args = pattern.args.iter().map(|term| match term {
         Term::Const(name) => Some(name.clone()),
-        Term::Param(p) => binding[*p as usize].clone(),
+        Term::Param(p) => binding[*p as usize].cloned(),
     });
     Some(Atom::new(pattern.predicate.clone(), args.collect::<Option<_>>()?))
 }

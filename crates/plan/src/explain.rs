@@ -5,7 +5,7 @@ use std::fmt;
 use typelift_model::{ActionModel, ActionSchema, GroundAtom, HashMap, LiftedAtom, Symbol, Task, Term};
 
 use crate::Restrictions;
-use crate::ground::GroundTask;
+use crate::reach::Reachable;
 
 /// What stands between an action and the atom that it could achieve.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -150,18 +150,15 @@ pub(crate) fn unreachable(
     model: &ActionModel,
     task: &Task,
     restrictions: &Restrictions,
-    ground: &GroundTask,
+    reachable: &Reachable,
 ) -> Vec<UnreachableGoal> {
-    let context = Context { model, task, restrictions, reached: ground.reached_by_predicate() };
+    let context = Context { model, task, restrictions, reached: reachable.atoms_by_predicate() };
     let nearest = |atom: &GroundAtom| {
-        let candidates = model.actions.iter().flat_map(|schema| schema.adds().map(move |add| (schema, add)));
-        let fitting = candidates.filter(|(_, add)| add.predicate == atom.predicate && add.arity() == atom.arity());
-        fitting
-            .filter_map(|(schema, add)| context.misfits(schema, add, atom))
-            .min_by_key(|nearest| nearest.misfits.len())
+        let adding = model.adding(atom).map(|(schema, binding)| context.misfits(schema, &binding));
+        adding.min_by_key(|nearest| nearest.misfits.len())
     };
-    ground
-        .unreachable_goals()
+    reachable
+        .unreached_goals()
         .iter()
         .map(|atom| UnreachableGoal {
             atom: atom.clone(),
@@ -180,22 +177,11 @@ struct Context<'a> {
 }
 
 impl Context<'_> {
-    /// What keeps `schema` from adding `atom` through its effect `add`; `None` if the effect can never be this atom.
-    fn misfits(&self, schema: &ActionSchema, add: &LiftedAtom, atom: &GroundAtom) -> Option<Nearest> {
+    /// What keeps `schema` from adding an atom that puts these objects in the place of its parameters.
+    fn misfits(&self, schema: &ActionSchema, binding: &[Option<&Symbol>]) -> Nearest {
         let hierarchy = &self.model.hierarchy;
-        let mut binding: Vec<Option<&Symbol>> = vec![None; schema.parameters.len()];
-        for (term, object) in add.args.iter().zip(&atom.args) {
-            match term {
-                Term::Const(name) if name != object => return None,
-                Term::Const(_) => {}
-                Term::Param(p) => match binding[*p as usize].replace(object) {
-                    Some(other) if other != object => return None,
-                    _ => {}
-                },
-            }
-        }
         let mut misfits = Vec::new();
-        for (parameter, object) in schema.parameters.iter().zip(&binding) {
+        for (parameter, object) in schema.parameters.iter().zip(binding) {
             let Some(object) = object else {
                 let usable = |(name, ty): (&Symbol, &_)| {
                     hierarchy.is_a(*ty, parameter.ty) && self.restrictions.allows(name, &schema.call.name)
@@ -217,30 +203,26 @@ impl Context<'_> {
             }
         }
         if misfits.is_empty() {
-            let missing = schema.positive_preconditions().find(|pre| !self.reachable_somehow(schema, pre, &binding));
-            misfits.extend(missing.map(|pre| Misfit::Precondition(written(schema, pre, &binding, self.model))));
+            let missing = schema.positive_preconditions().find(|pre| !self.reachable_somehow(schema, pre, binding));
+            misfits.extend(missing.map(|pre| Misfit::Precondition(written(schema, pre, binding, self.model))));
         }
         if misfits.is_empty() && self.restrictions.banned.iter().any(|ban| ban.call.name == schema.call.name) {
             misfits.push(Misfit::Banned);
         }
-        Some(Nearest { action: schema.name.clone(), misfits })
+        Nearest { action: schema.name.clone(), misfits }
     }
 
     /// Whether some instance of a precondition under a partial binding is reachable.
     fn reachable_somehow(&self, schema: &ActionSchema, pre: &LiftedAtom, binding: &[Option<&Symbol>]) -> bool {
-        self.reached.get(&pre.predicate).into_iter().flatten().any(|fact| {
-            fact.arity() == pre.arity()
-                && pre.args.iter().zip(&fact.args).all(|(term, object)| match term {
-                    Term::Const(name) => name == object,
-                    Term::Param(p) => binding[*p as usize].map_or_else(
-                        || {
-                            let ty = self.task.init.objects[object];
-                            self.model.hierarchy.is_a(ty, schema.parameters[*p as usize].ty)
-                        },
-                        |bound| bound == object,
-                    ),
-                })
-        })
+        let is_of_type = |p: usize, object: &Symbol, _: &_| {
+            self.model.hierarchy.is_a(self.task.init.objects[object], schema.parameters[p].ty)
+        };
+        let mut binding = binding.to_vec();
+        self.reached
+            .get(&pre.predicate)
+            .into_iter()
+            .flatten()
+            .any(|fact| pre.bind(fact, &mut binding, is_of_type).is_some())
     }
 }
 

@@ -4,15 +4,16 @@
 //! actions come first is found.
 
 use std::collections::BTreeSet;
+use std::mem::take;
 
-use typelift_model::{ActionModel, ActionSchema, Budget, Goal, GroundAtom, HashMap, Step, Stop, Symbol, Task};
+use typelift_model::{ActionModel, ActionSchema, Budget, Goal, GroundAtom, Step, Stop, Symbol, Task};
 
 use crate::Restrictions;
 use crate::distinct::Distinct;
 use crate::fact::{FactId, Facts};
 use crate::fdr::{Assignment, Axioms, FOLLOWS, Place};
 use crate::poll::Poll;
-use crate::reach::{RawOp, Reached, reach};
+use crate::reach::{RawOp, Reachable};
 
 /// A ground action of one [`GroundTask`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -79,7 +80,7 @@ pub struct Op {
 #[derive(Debug)]
 pub struct GroundTask {
     schemas: Vec<ActionSchema>,
-    facts: Facts,
+    reachable: Reachable,
     /// The actions, then the axioms.
     ops: Vec<Op>,
     /// How many of `ops` are actions.
@@ -92,7 +93,6 @@ pub struct GroundTask {
     goal: Vec<FactId>,
     negative_goal: Vec<FactId>,
     asked: Goal,
-    unreachable: Vec<GroundAtom>,
     ops_before_deduplication: usize,
 }
 
@@ -107,70 +107,7 @@ pub fn ground(
     order: TieOrder,
     budget: &Budget,
 ) -> Result<GroundTask, Stop> {
-    let Reached { mut facts, ops: mut raw, axioms: raw_axioms } = reach(model, task, restrictions, budget)?;
-    let derived = model.derived_predicates();
-    let basic = task.init.atoms.iter().filter(|atom| !derived.contains(&atom.predicate));
-    let init: Vec<FactId> = basic.filter_map(|atom| facts.find(atom)).collect();
-    let (mut goal, mut unreachable) = (Vec::new(), Vec::new());
-    for atom in &task.goal.required {
-        match facts.intern_atom(atom) {
-            Some(fact) if facts.is_reached(fact) => goal.push(fact),
-            _ => unreachable.push(atom.clone()),
-        }
-    }
-    goal.sort_unstable();
-    goal.dedup();
-    // What is never reached never holds.
-    let negative_goal: Vec<FactId> =
-        task.goal.forbidden.iter().filter_map(|atom| facts.find(atom)).filter(|&f| facts.is_reached(f)).collect();
-    let rank = schema_ranks(model, order);
-    raw.sort_by(|a, b| (rank[a.schema], &a.objects).cmp(&(rank[b.schema], &b.objects)));
-    let mentioned: BTreeSet<&Symbol> = task.goal.literals().flat_map(|(atom, _)| &atom.args).collect();
-    let touches_goal = |op: &RawOp| {
-        op.objects.iter().any(|&object| {
-            let ty = task.init.objects[facts.name(object)];
-            !model.is_actor(ty) && mentioned.contains(facts.name(object))
-        })
-    };
-    let ops_before_deduplication = raw.len();
-    let mut ops = Distinct::new(&model.actions);
-    let mut poll = Poll::new(budget);
-    for op in raw {
-        poll.check(1 + op.effects.len())?;
-        let schema = &model.actions[op.schema];
-        let touches_goal = touches_goal(&op);
-        let objects: Vec<Symbol> = op.objects.iter().map(|&o| facts.name(o).clone()).collect();
-        // Where what it costs is not stated, an action cannot be used.
-        let Some(cost) = schema.cost.of(&objects, &task.values) else { continue };
-        ops.insert(resolve(op, objects, cost, &facts, touches_goal));
-    }
-    let mut ops = ops.into_ops();
-    let actions = ops.len();
-    let mut strata = Vec::with_capacity(raw_axioms.len());
-    for axiom in raw_axioms {
-        poll.check(1)?;
-        strata.push(model.axioms[axiom.schema].stratum);
-        ops.push(resolve(axiom, Vec::new(), 0, &facts, false));
-    }
-    let mut derived: Vec<FactId> = ops[actions..].iter().flat_map(|axiom| &axiom.adds).copied().collect();
-    derived.sort_unstable();
-    derived.dedup();
-    let init = closed(init, ops[actions..].iter().zip(strata.iter().copied()), &derived, facts.len());
-    let schemas = model.actions.clone();
-    Ok(GroundTask {
-        schemas,
-        facts,
-        ops,
-        actions,
-        strata,
-        derived,
-        init,
-        goal,
-        negative_goal,
-        asked: task.goal.clone(),
-        unreachable,
-        ops_before_deduplication,
-    })
+    GroundTask::of(Reachable::of(model, task, restrictions, budget)?, model, task, order, budget)
 }
 
 /// Facts with those that follow from them, which come last.
@@ -256,6 +193,79 @@ fn resolve(raw: RawOp, objects: Vec<Symbol>, cost: u32, facts: &Facts, touches_g
 }
 
 impl GroundTask {
+    /// Grounds a task from what can be reached of it.
+    ///
+    /// # Errors
+    /// [`Stop`] if the budget ends it.
+    pub(crate) fn of(
+        mut reachable: Reachable,
+        model: &ActionModel,
+        task: &Task,
+        order: TieOrder,
+        budget: &Budget,
+    ) -> Result<Self, Stop> {
+        let (mut raw, raw_axioms) = (take(&mut reachable.ops), take(&mut reachable.axioms));
+        let derived = model.derived_predicates();
+        let basic = task.init.atoms.iter().filter(|atom| !derived.contains(&atom.predicate));
+        let init: Vec<FactId> = basic.filter_map(|atom| reachable.facts.find(atom)).collect();
+        let required = task.goal.required.iter().filter_map(|atom| reachable.facts.intern_atom(atom));
+        let mut goal: Vec<FactId> = required.collect();
+        let facts = &reachable.facts;
+        goal.retain(|&fact| facts.is_reached(fact));
+        goal.sort_unstable();
+        goal.dedup();
+        // What is never reached never holds.
+        let negative_goal: Vec<FactId> =
+            task.goal.forbidden.iter().filter_map(|atom| facts.find(atom)).filter(|&f| facts.is_reached(f)).collect();
+        let rank = schema_ranks(model, order);
+        raw.sort_by(|a, b| (rank[a.schema], &a.objects).cmp(&(rank[b.schema], &b.objects)));
+        let mentioned: BTreeSet<&Symbol> = task.goal.literals().flat_map(|(atom, _)| &atom.args).collect();
+        let touches_goal = |op: &RawOp| {
+            op.objects.iter().any(|&object| {
+                let ty = task.init.objects[facts.name(object)];
+                !model.is_actor(ty) && mentioned.contains(facts.name(object))
+            })
+        };
+        let ops_before_deduplication = raw.len();
+        let mut ops = Distinct::new(&model.actions);
+        let mut poll = Poll::new(budget);
+        for op in raw {
+            poll.check(1 + op.effects.len())?;
+            let schema = &model.actions[op.schema];
+            let touches_goal = touches_goal(&op);
+            let objects: Vec<Symbol> = op.objects.iter().map(|&o| facts.name(o).clone()).collect();
+            // Where what it costs is not stated, an action cannot be used.
+            let Some(cost) = schema.cost.of(&objects, &task.values) else { continue };
+            ops.insert(resolve(op, objects, cost, facts, touches_goal));
+        }
+        let mut ops = ops.into_ops();
+        let actions = ops.len();
+        let mut strata = Vec::with_capacity(raw_axioms.len());
+        for axiom in raw_axioms {
+            poll.check(1)?;
+            strata.push(model.axioms[axiom.schema].stratum);
+            ops.push(resolve(axiom, Vec::new(), 0, facts, false));
+        }
+        let mut derived: Vec<FactId> = ops[actions..].iter().flat_map(|axiom| &axiom.adds).copied().collect();
+        derived.sort_unstable();
+        derived.dedup();
+        let init = closed(init, ops[actions..].iter().zip(strata.iter().copied()), &derived, facts.len());
+        let schemas = model.actions.clone();
+        Ok(Self {
+            schemas,
+            reachable,
+            ops,
+            actions,
+            strata,
+            derived,
+            init,
+            goal,
+            negative_goal,
+            asked: task.goal.clone(),
+            ops_before_deduplication,
+        })
+    }
+
     /// The ground actions, in the order in which they are tried.
     pub fn ops(&self) -> impl Iterator<Item = (OpId, &Op)> {
         self.ops_and_axioms().take(self.actions)
@@ -278,7 +288,7 @@ impl GroundTask {
 
     /// The tables of objects, predicates and facts.
     pub(crate) fn facts(&self) -> &Facts {
-        &self.facts
+        &self.reachable.facts
     }
 
     /// One ground action, or axiom.
@@ -304,12 +314,12 @@ impl GroundTask {
 
     /// The number of facts, reached or not.
     pub fn fact_count(&self) -> usize {
-        self.facts.len()
+        self.reachable.facts.len()
     }
 
     /// The atom of a fact.
     pub fn atom(&self, id: FactId) -> GroundAtom {
-        self.facts.atom(id)
+        self.reachable.facts.atom(id)
     }
 
     /// The facts of the initial state, those that follow from the others last.
@@ -334,25 +344,21 @@ impl GroundTask {
 
     /// GetUnreachableGoals: goal atoms that cannot be reached even if nothing is ever deleted, in the goal's order.
     pub fn unreachable_goals(&self) -> &[GroundAtom] {
-        &self.unreachable
+        self.reachable.unreached_goals()
     }
 
     /// Whether the atom is reachable if nothing is ever deleted.
     pub fn reaches(&self, atom: &GroundAtom) -> bool {
-        self.facts.find(atom).is_some_and(|fact| self.facts.is_reached(fact))
+        self.reachable.facts.find(atom).is_some_and(|fact| self.reachable.facts.is_reached(fact))
     }
 
-    /// The atoms of the reachable facts, by predicate.
-    pub fn reached_by_predicate(&self) -> HashMap<Symbol, Vec<GroundAtom>> {
-        let mut by_predicate: HashMap<Symbol, Vec<GroundAtom>> = HashMap::default();
-        for atom in self.reached_facts().map(|fact| self.atom(fact)) {
-            by_predicate.entry(atom.predicate.clone()).or_default().push(atom);
-        }
-        by_predicate
+    /// What can be reached of it.
+    pub fn reachable(&self) -> &Reachable {
+        &self.reachable
     }
 
     /// Every reachable fact, in the order in which it was numbered.
     pub fn reached_facts(&self) -> impl Iterator<Item = FactId> + '_ {
-        self.facts.ids().filter(|&fact| self.facts.is_reached(fact))
+        self.reachable.facts.ids().filter(|&fact| self.reachable.facts.is_reached(fact))
     }
 }

@@ -5,11 +5,12 @@ use typelift_model::{ActionModel, Budget, GroundAtom, HashSet, Plan, Stop, Task}
 use crate::Restrictions;
 use crate::fact::FactId;
 use crate::fdr::{ActionIndex, Fdr};
-use crate::ground::{GroundTask, ground};
+use crate::ground::GroundTask;
 use crate::landmark::exclusive_goals;
 use crate::outcome::Outcome;
 use crate::planner::Options;
 use crate::poll::Poll;
+use crate::reach::Reachable;
 use crate::search::{Found, Report, Search, Space};
 use crate::strategy::{Stage, Strategy};
 use crate::symmetry::Symmetry;
@@ -41,15 +42,16 @@ struct Running {
 }
 
 impl Level {
-    /// Grounds the task and finds its landmarks.
+    /// Grounds the task from what can be reached of it, and finds its landmarks.
     pub(crate) fn new(
         model: &ActionModel,
         task: &Task,
         restrictions: &Restrictions,
         options: &Options,
+        reachable: Reachable,
         budget: &Budget,
     ) -> Result<Self, Stop> {
-        let ground = ground(model, task, restrictions, options.tie_order, budget)?;
+        let ground = GroundTask::of(reachable, model, task, options.tie_order, budget)?;
         let exclusive = exclusive_goals(&ground, budget)?;
         let lasting = lasting(&ground, budget)?;
         let exclusive = exclusive.map(|(a, b)| (ground.atom(a), ground.atom(b)));

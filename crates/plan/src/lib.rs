@@ -12,6 +12,7 @@
 //! This crate has never heard of learning or imagination: it plans with whatever actions it is given.
 #![deny(missing_docs)]
 
+mod alike;
 mod distinct;
 mod emit;
 mod explain;
@@ -46,7 +47,7 @@ pub use ground::{ConditionalEffect, GroundTask, Op, OpId, TieOrder, ground};
 pub use landmark::{LandmarkSequence, landmark_sequences};
 pub use outcome::Outcome;
 pub use planner::{Options, Planner};
+pub use reach::Reachable;
 pub use restrict::{Ban, Exclusion, Restrictions};
-pub use scope::reaches_goals_with_fewer_objects;
 pub use search::Report;
 pub use strategy::Strategy;

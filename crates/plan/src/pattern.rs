@@ -1,6 +1,6 @@
 //! Schemas and axioms with their names interned, ready to be joined with facts.
 
-use typelift_model::{ActionModel, ActionSchema, Axiom, HashSet, LiftedAtom, Literal, Parameter, Symbol, Term};
+use typelift_model::{ActionModel, ActionSchema, Axiom, HashSet, LiftedAtom, Literal, Parameter, Place, Symbol, Term};
 
 use crate::Restrictions;
 use crate::fact::{Facts, ObjectId};
@@ -12,11 +12,8 @@ pub(crate) struct Pattern {
     pub(crate) args: Vec<Arg>,
 }
 
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum Arg {
-    Param(usize),
-    Object(ObjectId),
-}
+/// What a pattern has in one place.
+pub(crate) type Arg = Place<ObjectId>;
 
 /// Two things that must be the same object, or different ones.
 #[derive(Debug, Clone, Copy)]
@@ -61,19 +58,6 @@ pub(crate) struct Compiled<'a> {
     pub(crate) fits: Vec<Vec<bool>>,
 }
 
-impl Arg {
-    pub(crate) fn object(self, binding: &[Option<ObjectId>]) -> Option<ObjectId> {
-        match self {
-            Self::Object(object) => Some(object),
-            Self::Param(p) => binding[p],
-        }
-    }
-
-    fn is_param(self, p: usize) -> bool {
-        matches!(self, Self::Param(q) if q == p)
-    }
-}
-
 impl Comparison {
     /// Whether it can still hold under a binding.
     pub(crate) fn allows(&self, binding: &[Option<ObjectId>]) -> bool {
@@ -85,7 +69,7 @@ impl Comparison {
 
     /// Whether it can still hold if `object` takes the place of an unbound parameter.
     pub(crate) fn allows_binding(&self, p: usize, object: ObjectId, binding: &[Option<ObjectId>]) -> bool {
-        let own = |arg: Arg| if arg.is_param(p) { Some(object) } else { arg.object(binding) };
+        let own = |arg: Arg| if arg == Arg::Param(p) { Some(object) } else { arg.object(binding) };
         match (own(self.a), own(self.b)) {
             (Some(a), Some(b)) => (a == b) == self.equal,
             _ => true,

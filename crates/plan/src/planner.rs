@@ -7,6 +7,7 @@ use crate::explain::{Explanation, unreachable};
 use crate::ground::{GroundTask, TieOrder};
 use crate::level::Level;
 use crate::outcome::Outcome;
+use crate::reach::Reachable;
 use crate::scope::{EAGERLY, LAZILY, Scopes};
 use crate::search::Report;
 use crate::strategy::Strategy;
@@ -49,6 +50,8 @@ pub struct Planner {
     expansions_before: u64,
     /// What levels that are over have counted.
     past: Report,
+    /// How often what can be reached was worked out.
+    groundings: u64,
     /// The plans of levels with fewer objects, as multisets of actions, sorted.
     found: HashSet<Vec<(Symbol, Vec<Symbol>)>>,
 }
@@ -67,6 +70,24 @@ impl Planner {
         options: &Options,
         budget: &Budget,
     ) -> Result<Self, Stop> {
+        Self::starting_from(None, model, task, restrictions, options, budget)
+    }
+
+    /// The same from what can be reached of the task, with this model and these restrictions, and perhaps with few objects:
+    /// where the task is planned with the same objects, it is not worked out again.
+    ///
+    /// # Errors
+    /// [`Stop`] if the budget ends grounding, or the work on landmarks.
+    pub fn starting_from(
+        reachable: Option<Reachable>,
+        model: &ActionModel,
+        task: &Task,
+        restrictions: &Restrictions,
+        options: &Options,
+        budget: &Budget,
+    ) -> Result<Self, Stop> {
+        let mut known = reachable;
+        let mut groundings = known.as_ref().map_or(0, Reachable::computed);
         let mut scopes = match options.strategy {
             strategy if strategy.is_optimal() => Scopes::whole(),
             Strategy::OrderedLandmarks => Scopes::of(model, task, restrictions, EAGERLY),
@@ -74,7 +95,15 @@ impl Planner {
         };
         let mut past = Report::default();
         let level = loop {
-            let level = Level::new(model, &scopes.restrict(task), restrictions, options, budget)?;
+            let task = scopes.restrict(task);
+            let reachable = match known.take_if(|known| known.has_objects_of(&task)) {
+                Some(known) => known,
+                None => {
+                    groundings += 1;
+                    Reachable::of(model, &task, restrictions, budget)?
+                }
+            };
+            let level = Level::new(model, &task, restrictions, options, reachable, budget)?;
             if scopes.is_whole() || level.is_open() {
                 break level;
             }
@@ -91,6 +120,7 @@ impl Planner {
             over: false,
             expansions_before: 0,
             past,
+            groundings,
             found: HashSet::default(),
         })
     }
@@ -145,7 +175,9 @@ impl Planner {
         }
         loop {
             let task = self.scopes.restrict(&self.task);
-            let level = Level::new(&self.model, &task, &self.restrictions, &self.options, budget)?;
+            let reachable = Reachable::of(&self.model, &task, &self.restrictions, budget)?;
+            self.groundings += 1;
+            let level = Level::new(&self.model, &task, &self.restrictions, &self.options, reachable, budget)?;
             if self.scopes.is_whole() || level.is_open() {
                 (self.level, self.over, self.expansions_before) = (level, false, 0);
                 return Ok(());
@@ -167,7 +199,8 @@ impl Planner {
 
     /// What was counted so far, with fewer objects and with more.
     pub fn report(&self) -> Report {
-        if self.over && !self.level.is_open() { self.past } else { self.past.and(self.level.report()) }
+        let counted = if self.over && !self.level.is_open() { self.past } else { self.past.and(self.level.report()) };
+        Report { groundings: self.groundings, ..counted }
     }
 
     /// The grounded task: with as many objects as are planned with now.
@@ -187,7 +220,12 @@ impl Planner {
             return Explanation::NotTogether { missing: self.level.missing() };
         }
         if !ground.unreachable_goals().is_empty() {
-            return Explanation::Unreachable(unreachable(&self.model, &self.task, &self.restrictions, ground));
+            return Explanation::Unreachable(unreachable(
+                &self.model,
+                &self.task,
+                &self.restrictions,
+                ground.reachable(),
+            ));
         }
         match self.level.exclusive() {
             Some((one, other)) => Explanation::Exclusive { one: one.clone(), other: other.clone() },
@@ -200,6 +238,7 @@ impl Report {
     /// This, and what was counted after it.
     fn and(self, later: Self) -> Self {
         Self {
+            groundings: self.groundings + later.groundings,
             ground_actions: self.ground_actions + later.ground_actions,
             facts: self.facts + later.facts,
             expansions: self.expansions + later.expansions,

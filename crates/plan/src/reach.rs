@@ -8,12 +8,13 @@
 //! are ignored, as deletes are, unless nothing ever changes what they speak of. An effect with a condition is reached
 //! when the positive part of it is. Axioms are joined as actions are.
 
-use typelift_model::{ActionModel, Budget, HashMap, HashSet, Stop, Task};
+use typelift_model::{ActionModel, Budget, GroundAtom, HashMap, HashSet, Stop, Symbol, Task, bind_places};
 
 use crate::Restrictions;
 use crate::fact::{FactId, Facts, ObjectId};
 use crate::pattern::{Arg, Compiled, Compiler, Pattern, fluents};
 use crate::poll::Poll;
+use crate::scope::{EAGERLY, Scopes};
 
 /// A ground action or axiom as reachability finds it.
 #[derive(Debug, Clone)]
@@ -34,21 +35,91 @@ pub(crate) struct RawEffect {
     pub(crate) adds: bool,
 }
 
-/// Everything reachable.
+/// What can be reached from a task's initial state if nothing is ever deleted, with one model under some restrictions:
+/// atoms, and inside also ground actions. Grounding, imagination and explanation start from it.
 #[derive(Debug)]
-pub(crate) struct Reached {
+pub struct Reachable {
     pub(crate) facts: Facts,
     pub(crate) ops: Vec<RawOp>,
     pub(crate) axioms: Vec<RawOp>,
+    unreached_goals: Vec<GroundAtom>,
+    computed: u64,
 }
 
-/// The facts and ground actions reachable from the task's initial state without deletes.
-pub(crate) fn reach(
+impl Reachable {
+    /// Works it out, once.
+    ///
+    /// # Errors
+    /// [`Stop`] if the budget ends it.
+    pub fn of(model: &ActionModel, task: &Task, restrictions: &Restrictions, budget: &Budget) -> Result<Self, Stop> {
+        let (facts, ops, axioms) = reach(model, task, restrictions, budget)?;
+        let mut this = Self { facts, ops, axioms, unreached_goals: Vec::new(), computed: 1 };
+        this.unreached_goals = task.goal.required.iter().filter(|atom| !this.reaches(atom)).cloned().collect();
+        Ok(this)
+    }
+
+    /// With some of a large task's objects, if all goals are reached with these; else with all. What is found with some is
+    /// found with all.
+    ///
+    /// # Errors
+    /// [`Stop`] if the budget ends it.
+    pub fn with_few_objects(
+        model: &ActionModel,
+        task: &Task,
+        restrictions: &Restrictions,
+        budget: &Budget,
+    ) -> Result<Self, Stop> {
+        let mut scopes = Scopes::of(model, task, restrictions, EAGERLY);
+        let mut computed = 0;
+        loop {
+            let mut this = Self::of(model, &scopes.restrict(task), restrictions, budget)?;
+            computed += 1;
+            if scopes.is_whole() || this.unreached_goals.is_empty() {
+                this.computed = computed;
+                return Ok(this);
+            }
+            scopes.advance();
+        }
+    }
+
+    /// GetUnreachableGoals: goal atoms that cannot be reached, in the goal's order.
+    pub fn unreached_goals(&self) -> &[GroundAtom] {
+        &self.unreached_goals
+    }
+
+    /// Whether an atom is reached.
+    pub fn reaches(&self, atom: &GroundAtom) -> bool {
+        self.facts.find(atom).is_some_and(|fact| self.facts.is_reached(fact))
+    }
+
+    /// The atoms reached, by predicate.
+    pub fn atoms_by_predicate(&self) -> HashMap<Symbol, Vec<GroundAtom>> {
+        let mut atoms: HashMap<Symbol, Vec<GroundAtom>> = HashMap::default();
+        for fact in self.facts.ids().filter(|&fact| self.facts.is_reached(fact)) {
+            let atom = self.facts.atom(fact);
+            atoms.entry(atom.predicate.clone()).or_default().push(atom);
+        }
+        atoms
+    }
+
+    /// How often reachability was worked out to come by this.
+    pub fn computed(&self) -> u64 {
+        self.computed
+    }
+
+    /// Whether it is of a task with these objects.
+    pub(crate) fn has_objects_of(&self, task: &Task) -> bool {
+        self.facts.objects.iter().map(|(name, _)| name).eq(task.init.objects.keys())
+    }
+}
+
+/// The facts, ground actions and ground axioms reachable from the task's initial state without deletes.
+fn reach(
     model: &ActionModel,
     task: &Task,
     restrictions: &Restrictions,
     budget: &Budget,
-) -> Result<Reached, Stop> {
+) -> Result<(Facts, Vec<RawOp>, Vec<RawOp>), Stop> {
     let mut facts = Facts::new(task);
     let mut compiler = Compiler { model, restrictions, facts: &mut facts };
     let mut schemas: Vec<Compiled<'_>> =
@@ -101,7 +172,7 @@ pub(crate) fn reach(
             }
         }
     }
-    Ok(Reached { facts: join.facts, ops: join.ops, axioms: join.axioms })
+    Ok((join.facts, join.ops, join.axioms))
 }
 
 /// An effect whose condition is not reached yet.
@@ -166,32 +237,8 @@ impl Join<'_> {
         fact: FactId,
         binding: &mut [Option<ObjectId>],
     ) -> Option<Vec<usize>> {
-        let args = self.facts.args(fact);
-        let mut bound = Vec::new();
-        if args.len() != pattern.args.len() {
-            return None;
-        }
-        for (arg, &object) in pattern.args.iter().zip(args) {
-            let matches = match *arg {
-                Arg::Object(constant) => constant == object,
-                Arg::Param(p) => match binding[p] {
-                    Some(known) => known == object,
-                    None if self.may_take(schema, p, object, binding) => {
-                        binding[p] = Some(object);
-                        bound.push(p);
-                        true
-                    }
-                    None => false,
-                },
-            };
-            if !matches {
-                for p in bound {
-                    binding[p] = None;
-                }
-                return None;
-            }
-        }
-        Some(bound)
+        let (places, objects) = (pattern.args.iter().copied(), self.facts.args(fact).iter().copied());
+        bind_places(places, objects, binding, |p, object, binding| self.may_take(schema, p, object, binding))
     }
 
     fn may_take(

@@ -16,12 +16,12 @@
 //! objects says nothing.
 
 use std::borrow::Cow;
-use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::collections::{BTreeSet, VecDeque};
 
-use typelift_model::{ActionModel, Budget, GroundAtom, HashMap, State, Stop, Symbol, Task, TypeId};
+use typelift_model::{ActionModel, GroundAtom, HashMap, State, Symbol, Task};
 
 use crate::Restrictions;
-use crate::reach::reach;
+use crate::alike::alike;
 use crate::symmetry::constants;
 
 /// When fewer objects are tried first.
@@ -181,49 +181,12 @@ fn distances(from: impl Iterator<Item = Object>, neighbours: &[Vec<Object>]) -> 
     distance
 }
 
-/// What an initial atom or a value says of an object: which it is, and the types of the other objects.
-type Said<'a> = (Option<u32>, &'a Symbol, Vec<Option<TypeId>>);
-
 /// Objects of which the same is said; what failed before is told apart.
 fn classes(task: &Task, restrictions: &Restrictions, ids: &HashMap<&Symbol, Object>) -> Vec<Vec<Object>> {
-    let mut said: Vec<Vec<Said<'_>>> = vec![Vec::new(); ids.len()];
-    let values = task.values.iter().map(|(atom, value)| (atom, Some(*value)));
-    for (atom, value) in task.init.atoms.iter().map(|atom| (atom, None)).chain(values) {
-        let objects: BTreeSet<&Symbol> = atom.args.iter().collect();
-        for object in objects {
-            let Some(&id) = ids.get(object) else { continue };
-            let ty = |arg: &Symbol| task.init.objects.get(arg).copied().filter(|_| arg != object);
-            said[id].push((value, &atom.predicate, atom.args.iter().map(ty).collect()));
-        }
-    }
     let distrusted: BTreeSet<&Symbol> = restrictions.excluded.iter().map(|exclusion| &exclusion.object).collect();
-    let mut classes: BTreeMap<(TypeId, bool, Vec<Said<'_>>), Vec<Object>> = BTreeMap::new();
-    for ((object, (name, ty)), mut said) in task.init.objects.iter().enumerate().zip(said) {
-        said.sort_unstable();
-        classes.entry((*ty, distrusted.contains(name), said)).or_default().push(object);
-    }
-    classes.into_values().collect()
-}
-
-/// Whether all goals can be reached, if nothing is ever deleted, with some of a large task's objects. If not, with all of
-/// them they may still be: this asks no question that [`ground`](crate::ground) would have to be asked anyway.
-///
-/// # Errors
-/// [`Stop`] if the budget ends it.
-pub fn reaches_goals_with_fewer_objects(
-    model: &ActionModel,
-    task: &Task,
-    restrictions: &Restrictions,
-    budget: &Budget,
-) -> Result<bool, Stop> {
-    let mut scopes = Scopes::of(model, task, restrictions, EAGERLY);
-    while !scopes.is_whole() {
-        let task = scopes.restrict(task);
-        let facts = reach(model, &task, restrictions, budget)?.facts;
-        if task.goal.required.iter().all(|atom| facts.find(atom).is_some_and(|fact| facts.is_reached(fact))) {
-            return Ok(true);
-        }
-        scopes.advance();
-    }
-    Ok(false)
+    let objects = task.init.objects.iter().map(|(name, ty)| (name, (*ty, distrusted.contains(name))));
+    let initial = task.init.atoms.iter().map(|atom| (None, atom));
+    let values = task.values.iter().map(|(atom, value)| (Some(*value), atom));
+    let classes = alike(objects, initial.chain(values), |other| task.init.objects.get(other).copied());
+    classes.iter().map(|class| class.iter().map(|name| ids[name]).collect()).collect()
 }

@@ -6,10 +6,11 @@
 //! which it mentions them. This is the part of symmetry breaking (Pochter, Zohar and Rosenschein 2011; Domshlak, Katz and
 //! Shleyfman 2012) that needs no search for automorphisms; plans are plans of the task as it is, and a cheapest one is kept.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
-use typelift_model::{ActionModel, HashMap, Symbol, Task, Term, TypeId};
+use typelift_model::{ActionModel, HashMap, Symbol, Task, Term};
 
+use crate::alike::alike;
 use crate::fact::FactId;
 use crate::fdr::{ActionIndex, Fdr, Values};
 use crate::ground::{GroundTask, Op};
@@ -166,32 +167,17 @@ fn facts(op: &Op) -> impl Iterator<Item = FactId> {
     [&op.preconditions, &op.negative, &op.adds, &op.deletes].into_iter().flatten().copied().chain(conditional)
 }
 
-/// A thing that a task says of an object, which is left out.
-type Said<'a> = (u8, &'a Symbol, Vec<Option<&'a Symbol>>, u32);
-
 /// The classes of two or more interchangeable objects, in the order of names.
 fn classes(model: &ActionModel, task: &Task) -> Vec<Vec<Symbol>> {
-    let mut said: BTreeMap<&Symbol, Vec<Said<'_>>> = BTreeMap::new();
-    let goals = task.goal.required.iter().map(|atom| (1, atom, 0));
-    let negative = task.goal.forbidden.iter().map(|atom| (2, atom, 0));
-    let values = task.values.iter().map(|(atom, value)| (3, atom, *value));
-    for (kind, atom, value) in
-        task.init.atoms.iter().map(|atom| (0, atom, 0)).chain(goals).chain(negative).chain(values)
-    {
-        let objects: BTreeSet<&Symbol> = atom.args.iter().collect();
-        for object in objects {
-            let others = atom.args.iter().map(|arg| (arg != object).then_some(arg)).collect();
-            said.entry(object).or_default().push((kind, &atom.predicate, others, value));
-        }
-    }
+    let initial = task.init.atoms.iter().map(|atom| ((0, 0), atom));
+    let goals = task.goal.required.iter().map(|atom| ((1, 0), atom));
+    let negative = task.goal.forbidden.iter().map(|atom| ((2, 0), atom));
+    let values = task.values.iter().map(|(atom, value)| ((3, *value), atom));
     let named = constants(model);
-    let mut classes: BTreeMap<(TypeId, Vec<Said<'_>>), Vec<Symbol>> = BTreeMap::new();
-    for (object, ty) in task.init.objects.iter().filter(|(object, _)| !named.contains(object)) {
-        let mut said = said.remove(object).unwrap_or_default();
-        said.sort_unstable();
-        classes.entry((*ty, said)).or_default().push(object.clone());
-    }
-    let mut classes: Vec<Vec<Symbol>> = classes.into_values().filter(|class| class.len() > 1).collect();
+    let objects = task.init.objects.iter().filter(|(object, _)| !named.contains(object)).map(|(name, ty)| (name, *ty));
+    let classes = alike(objects, initial.chain(goals).chain(negative).chain(values), |other| other);
+    let several = classes.into_iter().filter(|class| class.len() > 1);
+    let mut classes: Vec<Vec<Symbol>> = several.map(|class| class.into_iter().cloned().collect()).collect();
     classes.sort_unstable();
     classes
 }

@@ -4,6 +4,9 @@
 //! The groups are the invariants of Helmert (2009, section 5), with weight one and at most one counted argument a
 //! predicate. A group is tried for each condition that might be implied, instead of looking for all that there are: it
 //! holds if it does initially, and if every action that adds to it takes away from it what it required.
+//!
+//! The planner finds its groups ground action by ground action (`plan/src/fdr/mutex.rs`), which is more than schemas
+//! alone can tell. It has grounded the task for that; an export has not, and may be of a task that is too large to.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -6,6 +6,9 @@
 //! atoms to add: those that the offending action consumes. Where we differ: candidates are lifted, but balance is looked
 //! at ground action by ground action. So what can never happen does not count, and for some parameters a candidate may
 //! be a group while for others it is none.
+//!
+//! The export to other planners looks for invariants too, among schemas alone (`pddl/src/export/exclusive.rs`). The two
+//! share an idea, but no step: there is nothing ground there, and here nothing lifted is left.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap};

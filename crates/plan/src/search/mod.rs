@@ -19,6 +19,8 @@ use crate::symmetry::Symmetry;
 /// What grounding and search counted.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Report {
+    /// How often what can be reached was worked out, for planning and, before it, for imagination.
+    pub groundings: u64,
     /// Ground actions.
     pub ground_actions: u64,
     /// Facts.
