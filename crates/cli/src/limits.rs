@@ -32,7 +32,7 @@ pub(crate) struct Limits {
     /// Stop after this time, reading included: seconds, or 500ms, 30s, 5m
     #[arg(long, value_name = "TIME", value_parser = parse_duration, allow_negative_numbers = true)]
     time_limit: Option<Duration>,
-    /// Come to hold at most so much more memory: mebibytes, or 500M, 2G
+    /// Hold at most so much memory beyond what is held at the start: mebibytes, or 500M, 2G
     #[arg(long, value_name = "SIZE", value_parser = parse_bytes, allow_negative_numbers = true)]
     memory_limit: Option<u64>,
 }

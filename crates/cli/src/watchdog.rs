@@ -79,14 +79,10 @@ impl Watchdog {
 }
 
 /// Waits until a limit is reached; none if it is called off before.
-fn wait(
-    clock: Clock,
-    time: Option<Duration>,
-    memory: Option<MemoryLimit>,
-    decided: &AtomicBool,
-) -> Option<Stop> {
+fn wait(clock: Clock, time: Option<Duration>, memory: Option<MemoryLimit>, decided: &AtomicBool) -> Option<Stop> {
     let latest = time.map(|limit| limit.saturating_add(limit / 20).saturating_add(GRACE));
-    let most = memory.map(|MemoryLimit { bytes, probe }| MemoryLimit { bytes: bytes.saturating_add(bytes / 20), probe });
+    let most =
+        memory.map(|MemoryLimit { bytes, probe }| MemoryLimit { bytes: bytes.saturating_add(bytes / 20), probe });
     loop {
         let left = latest.map(|latest| latest.saturating_sub(clock.elapsed()));
         if decided.load(Ordering::SeqCst) {
