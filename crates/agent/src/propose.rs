@@ -82,7 +82,7 @@ impl Proposal {
             Searched::Own(planner) => check(&self.model, planner.task(), plan)
                 .map_err(|error| ProposeError::Invalid { plan: plan.clone(), error })?,
             Searched::External(asked) => check(&asked.0, &asked.1, plan)
-                .map_err(|error| ExternalFailure::InvalidPlan(format!("the planner's plan is not valid: {error}")))?,
+                .map_err(|error| ProposeError::ExternalPlan { plan: plan.clone(), error })?,
         };
         Ok(outcome)
     }
@@ -105,6 +105,14 @@ pub enum ProposeError {
     /// Somebody else's planner gave no usable answer.
     #[error(transparent)]
     External(#[from] ExternalFailure),
+    /// The plan of somebody else's planner does not survive the check.
+    #[error("the planner's plan is not valid: {error}")]
+    ExternalPlan {
+        /// The plan.
+        plan: Plan,
+        /// What is wrong with it.
+        error: Invalid,
+    },
 }
 
 /// Plans a task with a learned model.

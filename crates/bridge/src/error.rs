@@ -176,9 +176,25 @@ impl BridgeError {
 
 impl From<BridgeError> for WorldError {
     fn from(error: BridgeError) -> Self {
-        match error.hint() {
-            Some(hint) => Self::new(format!("{error}\n  {hint}")),
-            None => Self::new(error.to_string()),
+        let account = match error.hint() {
+            Some(hint) => format!("{error}\n  {hint}"),
+            None => error.to_string(),
+        };
+        match *error.failure {
+            Failure::CommandLine { .. }
+            | Failure::NotStarted { .. }
+            | Failure::Died { .. }
+            | Failure::Closed { .. }
+            | Failure::Over(_) => Self::Gone { account },
+            Failure::TimedOut { .. } => Self::TimedOut { account },
+            Failure::TooLong
+            | Failure::NotJson { .. }
+            | Failure::Malformed { .. }
+            | Failure::WrongId { .. }
+            | Failure::Missing { .. }
+            | Failure::Protocol(_) => Self::Misspoke { account },
+            Failure::NoReset | Failure::Refused { op: "reset", .. } => Self::CannotSetUp { account },
+            Failure::Refused { .. } => Self::Failed { account },
         }
     }
 }

@@ -38,4 +38,4 @@ mod process;
 pub use bridge::{Bridge, Stopper};
 pub use error::{BridgeError, Failure};
 pub use options::Options;
-pub use planner_command::PlannerCommand;
+pub use planner_command::{PlannerCommand, PlannerCommandError};

@@ -7,9 +7,10 @@ use std::process::{Command, ExitStatus, Stdio};
 use std::time::Duration;
 
 use tempfile::TempDir;
-use typelift_model::{ActionModel, Budget, Plan, Stop, Symbol, Task};
-use typelift_pddl::{ExportNames, ExportOptions, Exported, Level, export, read_plan};
-use typelift_plan::{ExternalFailure, ExternalPlanner, Outcome};
+use thiserror::Error;
+use typelift_model::{ActionModel, Budget, Plan, Step, Stop, Symbol, Task};
+use typelift_pddl::{ExportNames, ExportOptions, Exported, Level, PlanLine, UnknownName, export, read_plan};
+use typelift_plan::{ExternalFailure, ExternalPlanner, Outcome, PlanDefect, StepDefect};
 
 use crate::error::shorten;
 use crate::process::Process;
@@ -39,19 +40,36 @@ struct Exchange {
     names: ExportNames,
 }
 
+/// Why a command line is none of a planner.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+pub enum PlannerCommandError {
+    /// A quotation mark has no partner.
+    #[error("the command ends within a quotation")]
+    OpenQuotation,
+    /// It is empty.
+    #[error("the command names no program")]
+    NoProgram,
+    /// The planner could not find one of the files that it needs.
+    #[error("the command says nowhere where the planner finds {place}")]
+    NoPlace {
+        /// What stands for the file: `{domain}` or `{problem}`.
+        place: &'static str,
+    },
+}
+
 impl PlannerCommand {
     /// Reads a command line, with quotation marks as in a shell.
     ///
     /// # Errors
-    /// What is wrong with it, in words.
-    pub fn new(command_line: &str, level: Level) -> Result<Self, String> {
-        let words = shlex::split(command_line).ok_or("the command ends within a quotation")?;
+    /// [`PlannerCommandError`]
+    pub fn new(command_line: &str, level: Level) -> Result<Self, PlannerCommandError> {
+        let words = shlex::split(command_line).ok_or(PlannerCommandError::OpenQuotation)?;
         if words.is_empty() {
-            return Err("the command names no program".to_owned());
+            return Err(PlannerCommandError::NoProgram);
         }
         for place in ["{domain}", "{problem}"] {
             if !words.iter().any(|word| word.contains(place)) {
-                return Err(format!("the command says nowhere where the planner finds {place}"));
+                return Err(PlannerCommandError::NoPlace { place });
             }
         }
         // The command runs elsewhere. Links stay: a virtual environment's interpreter is known by the place of its link.
@@ -62,12 +80,12 @@ impl PlannerCommand {
         Ok(Self { words: words.into_iter().map(here).collect(), level })
     }
 
-    fn program(&self) -> &str {
-        self.words[0].rsplit('/').next().unwrap_or_default()
+    fn program(&self) -> String {
+        self.words[0].rsplit('/').next().unwrap_or_default().to_owned()
     }
 
     fn write(&self, model: &ActionModel, task: &Task) -> Result<Exchange, ExternalFailure> {
-        let failed = |error: &dyn std::fmt::Display| ExternalFailure::Failed(error.to_string());
+        let failed = |error: &dyn std::fmt::Display| ExternalFailure::NotAsked { reason: error.to_string() };
         let options = ExportOptions { domain: "model".into(), problem: "task".into(), level: self.level };
         let Exported { domain, problem, names } = export(model, Some(task), &options).map_err(|e| failed(&e))?;
         let folder = tempfile::tempdir().map_err(|e| failed(&e))?;
@@ -102,9 +120,8 @@ impl PlannerCommand {
         task: &Task,
     ) -> Result<Outcome, ExternalFailure> {
         if let Some(file) = exchange.plan_file() {
-            return exchange.read(&file, model, task).map(Outcome::Solved).map_err(|message| {
-                ExternalFailure::InvalidPlan(format!("the plan of {} cannot be used: {message}", self.program()))
-            });
+            let plan = exchange.read(&file, model, task).map(Outcome::Solved);
+            return plan.map_err(|defect| ExternalFailure::UnusablePlan { program: self.program(), defect });
         }
         if let Some(stop) = stopped {
             return Ok(stop.into());
@@ -115,15 +132,7 @@ impl PlannerCommand {
             Some(12) => Ok(Outcome::Stopped(Stop::Expansions)),
             Some(20 | 22) => Ok(Outcome::Stopped(Stop::Memory)),
             Some(21 | 23) => Ok(Outcome::Stopped(Stop::Time)),
-            _ => {
-                let how = match status.map(|status| (status.success(), status)) {
-                    Some((true, _)) => "ended without a plan".to_owned(),
-                    Some((false, status)) => format!("failed ({status})"),
-                    None => "failed".to_owned(),
-                };
-                let said: String = exchange.last_words().iter().map(|line| format!("\n  {line}")).collect();
-                Err(ExternalFailure::Failed(format!("{} {how}{said}", self.program())))
-            }
+            _ => Err(ExternalFailure::NoAnswer { program: self.program(), status, last_words: exchange.last_words() }),
         }
     }
 }
@@ -131,9 +140,10 @@ impl PlannerCommand {
 impl ExternalPlanner for PlannerCommand {
     fn plan(&self, model: &ActionModel, task: &Task, budget: &Budget) -> Result<Outcome, ExternalFailure> {
         let exchange = self.write(model, task)?;
-        let process = self
-            .start(&exchange)
-            .map_err(|error| ExternalFailure::Failed(format!("cannot start {}: {error}", self.words[0])))?;
+        let process = self.start(&exchange).map_err(|error| ExternalFailure::NotStarted {
+            program: self.words[0].clone(),
+            reason: error.to_string(),
+        })?;
         let mut stopped = None;
         while !process.wait(INTERVAL) {
             stopped = budget.stopped();
@@ -159,24 +169,26 @@ impl Exchange {
         one_of("plan").or_else(|| one_of("sas_plan")).or_else(|| is_there("problem.pddl.soln"))
     }
 
-    fn read(&self, file: &Path, model: &ActionModel, task: &Task) -> Result<Plan, String> {
-        let text = fs::read_to_string(file).map_err(|error| error.to_string())?;
-        let lines = read_plan(&text).map_err(|error| error.to_string())?;
-        let mut plan = Plan::default();
-        for (i, line) in lines.iter().enumerate() {
-            let at = |what: String| format!("step {}: {what}", i + 1);
-            let args = line.args.iter().map(Symbol::as_str);
-            let (action, objects) = self.names.step(line.name.as_str(), args).map_err(|error| at(error.to_string()))?;
-            let Some(schema) = model.action(action.as_str()) else { return Err(at(format!("there is no {action}"))) };
-            if schema.parameters.len() != objects.len() {
-                let (expected, found) = (schema.parameters.len(), objects.len());
-                return Err(at(format!("{action} takes {expected} objects, not {found}")));
-            }
-            let cost = schema.cost.of(&objects, &task.values);
-            let cost = cost.ok_or_else(|| at(format!("what {action} costs there is not stated")))?;
-            plan.steps.push(schema.step(objects, cost));
+    fn read(&self, file: &Path, model: &ActionModel, task: &Task) -> Result<Plan, PlanDefect> {
+        let unreadable = |error: &dyn std::fmt::Display| PlanDefect::Unreadable { reason: error.to_string() };
+        let text = fs::read_to_string(file).map_err(|error| unreadable(&error))?;
+        let lines = read_plan(&text).map_err(|error| unreadable(&error))?;
+        let step = |(i, line)| self.step(line, model, task).map_err(|defect| PlanDefect::Step { step: i + 1, defect });
+        Ok(Plan { steps: lines.iter().enumerate().map(step).collect::<Result<_, _>>()? })
+    }
+
+    /// The step that a line stands for.
+    fn step(&self, line: &PlanLine, model: &ActionModel, task: &Task) -> Result<Step, StepDefect> {
+        let unknown = |kind, name: &str| StepDefect::UnknownName { kind, name: name.to_owned() };
+        let args = line.args.iter().map(Symbol::as_str);
+        let named = self.names.step(line.name.as_str(), args);
+        let (action, objects) = named.map_err(|UnknownName { kind, name }| unknown(kind, &name))?;
+        let schema = model.action(action.as_str()).ok_or_else(|| unknown("action", action.as_str()))?;
+        if schema.parameters.len() != objects.len() {
+            return Err(StepDefect::Arguments { action, expected: schema.parameters.len(), found: objects.len() });
         }
-        Ok(plan)
+        let cost = schema.cost.of(&objects, &task.values).ok_or(StepDefect::NoCost { action })?;
+        Ok(schema.step(objects, cost))
     }
 
     /// The last lines that the planner printed.

@@ -108,10 +108,10 @@ impl From<ProposeError> for Failure {
     fn from(error: ProposeError) -> Self {
         match error {
             ProposeError::Stopped(stop) => Self::new(stop.into(), error),
-            ProposeError::External(ExternalFailure::Failed(message)) => {
-                Self::new(Exit::Planner, format!("the planner failed: {message}"))
+            ProposeError::External(ExternalFailure::UnusablePlan { .. }) | ProposeError::ExternalPlan { .. } => {
+                Self::new(Exit::InvalidPlan, error)
             }
-            ProposeError::External(ExternalFailure::InvalidPlan(message)) => Self::new(Exit::InvalidPlan, message),
+            ProposeError::External(failure) => Self::new(Exit::Planner, format!("the planner failed: {failure}")),
             ProposeError::Invalid { .. } => Self::new(Exit::Internal, format!("{error}; this is a defect of typelift")),
         }
     }

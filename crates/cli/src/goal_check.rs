@@ -20,9 +20,9 @@ impl GoalCheck<'_> {
         if let Ok(state) = parser.parse(&scene)
             && let Err(error) = check_goal(&self.goal, &state, &self.model.predicates)
         {
-            let message = error.to_string();
+            let account = error.to_string();
             self.error = Some(error);
-            return Err(WorldError::new(message));
+            return Err(WorldError::CannotSetUp { account });
         }
         Ok(scene)
     }

@@ -31,7 +31,7 @@ impl From<Room> for Kitchen {
 }
 
 fn not_set_up() -> WorldError {
-    WorldError::new("the kitchen has not been set up: reset comes first")
+    WorldError::NotSetUp { world: "kitchen".to_owned() }
 }
 
 impl World for Kitchen {
@@ -42,7 +42,7 @@ impl World for Kitchen {
     fn reset(&mut self, reset: &Reset) -> Result<Scene, WorldError> {
         let room = Scenario::from_json(reset.scenario.as_ref())
             .and_then(|scenario| Room::build(&scenario, reset.seed))
-            .map_err(|error| WorldError::new(error.to_string()))?;
+            .map_err(|error| WorldError::CannotSetUp { account: error.to_string() })?;
         Ok(Scene::Snapshot(self.room.insert(room).snapshot()))
     }
 
@@ -54,6 +54,12 @@ impl World for Kitchen {
         let room = self.room.as_mut().ok_or_else(not_set_up)?;
         let reason = room.act(call).err().map(|refusal| refusal.to_string());
         Ok(Acted { scene: Scene::Snapshot(room.snapshot()), executed: reason.is_none(), reason })
+    }
+
+    /// All calls that [`Room::act`] would carry out, each in its long form. None before the first reset. Takes a look at
+    /// each thing that can be picked or used, and at each place where what is held can be put.
+    fn possible_calls(&self) -> Option<Vec<GroundCall>> {
+        self.room.as_ref().map(Room::possible_calls)
     }
 }
 

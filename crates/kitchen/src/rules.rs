@@ -22,11 +22,7 @@ impl Room {
     /// [`Refusal`] if the action is not possible now; nothing has changed then.
     pub fn act(&mut self, call: &GroundCall) -> Result<(), Refusal> {
         let deed = self.understand(call)?;
-        let station = match deed {
-            Deed::Pick { item } => self.may_pick(item)?,
-            Deed::Place { item, container } => self.may_place(item, container)?,
-            Deed::Use { tool } => self.may_use(tool)?,
-        };
+        let station = self.station_for(deed)?;
         let (cell, facing) =
             self.way_to(station).ok_or_else(|| Refusal::Unreachable { target: self.stations[station].name.clone() })?;
         (self.agent.cell, self.agent.facing) = (cell, Some(facing));
@@ -36,6 +32,48 @@ impl Room {
             Deed::Use { tool } => self.do_use(tool),
         }
         Ok(())
+    }
+
+    /// The actions that are possible now, ordered.
+    pub(crate) fn possible_calls(&self) -> Vec<GroundCall> {
+        let call = |name: &str, container: Container, item: usize| GroundCall {
+            name: name.into(),
+            args: vec![self.agent.name.clone(), self.container_name(container).clone(), self.items[item].name.clone()],
+        };
+        let items = 0..self.items.len();
+        let mut possible = Vec::new();
+        let mut offer = |deed: Deed, call: GroundCall| {
+            if self.station_for(deed).is_ok_and(|station| self.way_to(station).is_some()) {
+                possible.push(call);
+            }
+        };
+        for item in items.clone() {
+            if let Some(container) = self.container_holding(item) {
+                offer(Deed::Pick { item }, call("PICK", container, item));
+            }
+        }
+        if let Some(item) = self.agent.holding {
+            let plates = items.filter(|&item| !self.items[item].kind.is_food()).map(Container::Plate);
+            for container in (0..self.stations.len()).map(Container::Station).chain(plates) {
+                offer(Deed::Place { item, container }, call("PLACE", container, item));
+            }
+        }
+        for (tool, station) in self.stations.iter().enumerate() {
+            if let Some(&top) = station.content.last().filter(|_| station.kind.process().is_some()) {
+                offer(Deed::Use { tool }, call("USE", Container::Station(tool), top));
+            }
+        }
+        possible.sort_unstable();
+        possible
+    }
+
+    /// Where an action can be performed.
+    fn station_for(&self, deed: Deed) -> Result<usize, Refusal> {
+        match deed {
+            Deed::Pick { item } => self.may_pick(item),
+            Deed::Place { item, container } => self.may_place(item, container),
+            Deed::Use { tool } => self.may_use(tool),
+        }
     }
 
     /// The station from which the item can be picked.

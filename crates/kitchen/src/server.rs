@@ -100,7 +100,7 @@ fn try_answer(kitchen: &mut Kitchen, body: &RequestBody) -> Result<Answer, World
     let done = Answer { ok: true, ..Answer::default() };
     Ok(match body {
         RequestBody::Hello { protocol } if protocol != PROTOCOL => {
-            return Err(WorldError::new(format!("this environment speaks {PROTOCOL}, not `{protocol}`")));
+            failure(0, format!("this environment speaks {PROTOCOL}, not `{protocol}`"))
         }
         RequestBody::Hello { .. } => Answer { name: Some(kitchen.name()), reset: Some(kitchen.can_reset()), ..done },
         RequestBody::Reset { seed, scenario } => {

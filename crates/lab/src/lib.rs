@@ -34,7 +34,9 @@ pub use faults::{
     FaultRecord, FaultRow, FaultRun, FaultScenario, FaultsOptions, FaultsResult, Outcome, fault_scenarios,
     faults_experiment,
 };
-pub use growth::{Allowance, End, Growth, GrowthResult, Measure, Measurement, Point, Series, SeriesFit, measure};
+pub use growth::{
+    Allowance, End, Growth, GrowthResult, Measure, Measurement, Point, Series, SeriesFit, UnknownPoint, measure,
+};
 pub use hierarchy::{ParameterRow, TypeHierarchy, TypeRow};
 pub use learned::{dataset_of, kitchen_model, learned_from};
 pub use limits::{Limits, Stopper};

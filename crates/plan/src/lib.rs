@@ -41,7 +41,7 @@ mod symmetry;
 mod worked;
 
 pub use explain::{Explanation, Misfit, Nearest, UnreachableGoal};
-pub use external::{ExternalFailure, ExternalPlanner};
+pub use external::{ExternalFailure, ExternalPlanner, PlanDefect, StepDefect};
 pub use fact::FactId;
 pub use ground::{ConditionalEffect, GroundTask, Op, OpId, TieOrder, ground};
 pub use landmark::{LandmarkSequence, landmark_sequences};
@@ -50,4 +50,4 @@ pub use planner::{Options, Planner};
 pub use reach::Reachable;
 pub use restrict::{Ban, Exclusion, Restrictions};
 pub use search::Report;
-pub use strategy::Strategy;
+pub use strategy::{Strategy, UnknownStrategy};

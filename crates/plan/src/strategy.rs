@@ -4,6 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 use std::sync::Arc;
 
+use thiserror::Error;
 use typelift_model::{Budget, Stop};
 
 use crate::ground::GroundTask;
@@ -226,14 +227,19 @@ impl fmt::Display for Strategy {
     }
 }
 
+/// A name that no strategy has.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("there are {}", Strategy::ALL.map(Strategy::name).join(", "))]
+pub struct UnknownStrategy {
+    /// The name.
+    pub name: String,
+}
+
 impl FromStr for Strategy {
-    type Err = String;
+    type Err = UnknownStrategy;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         let known = Self::ALL.into_iter().find(|strategy| strategy.name() == text);
-        known.ok_or_else(|| {
-            let names: Vec<&str> = Self::ALL.iter().map(|strategy| strategy.name()).collect();
-            format!("there are {}", names.join(", "))
-        })
+        known.ok_or_else(|| UnknownStrategy { name: text.to_owned() })
     }
 }

@@ -26,18 +26,46 @@ pub struct Acted {
 }
 
 /// An environment that failed: not an action that did, but the environment itself.
+/// What can be done about it depends on the kind; the account says what happened, with what was sent and what came back
+/// where there was a conversation.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{message}")]
-pub struct WorldError {
-    /// What happened, with what was sent and what came back where there was a conversation.
-    pub message: String,
-}
-
-impl WorldError {
-    /// An error with this message.
-    pub fn new(message: impl Into<String>) -> Self {
-        Self { message: message.into() }
-    }
+pub enum WorldError {
+    /// Something was asked of it before it was set up.
+    #[error("the {world} has not been set up: reset comes first")]
+    NotSetUp {
+        /// What it calls itself.
+        world: String,
+    },
+    /// It cannot be set up like this. In another way it may be.
+    #[error("{account}")]
+    CannotSetUp {
+        /// What happened.
+        account: String,
+    },
+    /// It could not be started, or is there no more.
+    #[error("{account}")]
+    Gone {
+        /// What happened.
+        account: String,
+    },
+    /// It did not answer in time. Whether it did what was asked is not known.
+    #[error("{account}")]
+    TimedOut {
+        /// What happened.
+        account: String,
+    },
+    /// What it answers is not what the protocol says.
+    #[error("{account}")]
+    Misspoke {
+        /// What happened.
+        account: String,
+    },
+    /// It says that it could not do what was asked.
+    #[error("{account}")]
+    Failed {
+        /// What happened.
+        account: String,
+    },
 }
 
 /// An environment: a simulator, a robot, a replayed log.
@@ -67,6 +95,12 @@ pub trait World: Send {
     /// # Errors
     /// [`WorldError`] if the environment fails; an action that has no effect is not an error.
     fn act(&mut self, call: &GroundCall) -> Result<Acted, WorldError>;
+
+    /// The calls that would not be refused in the present scene, in their order; `None` if it does not know. Nothing is
+    /// said of what would come of them.
+    fn possible_calls(&self) -> Option<Vec<GroundCall>> {
+        None
+    }
 
     /// Ends it. Afterwards nothing is asked of it.
     ///

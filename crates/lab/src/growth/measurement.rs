@@ -4,6 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
+use thiserror::Error;
 use typelift::model::Stop;
 
 /// What grows.
@@ -55,14 +56,22 @@ impl fmt::Display for Point {
     }
 }
 
-impl FromStr for Point {
-    type Err = String;
+/// A text that names no point.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("`{text}` is no series with a size, as `storeroom:320` is")]
+pub struct UnknownPoint {
+    /// The text.
+    pub text: String,
+}
 
-    fn from_str(text: &str) -> Result<Self, String> {
+impl FromStr for Point {
+    type Err = UnknownPoint;
+
+    fn from_str(text: &str) -> Result<Self, UnknownPoint> {
         let words = text.split_once([' ', ':']);
         let point =
             words.and_then(|(series, size)| Some(Self { series: Series::parse(series)?, size: size.parse().ok()? }));
-        point.ok_or_else(|| format!("`{text}` is no series with a size, as `storeroom:320` is"))
+        point.ok_or_else(|| UnknownPoint { text: text.to_owned() })
     }
 }
 

@@ -29,7 +29,7 @@ use crate::learned::kitchen_model;
 use crate::limits::Stopper;
 use crate::runner::Experiment;
 
-pub use measurement::{End, Measurement, Point, Series};
+pub use measurement::{End, Measurement, Point, Series, UnknownPoint};
 pub use planning::Allowance;
 pub use plots::{GrowthResult, SeriesFit};
 
