@@ -18,9 +18,23 @@ use crate::{Dataset, FileError, Parser, Trace, TraceReader, TrajectoryContext};
 /// # Errors
 /// [`FileError`] as for [`read_trace`](crate::read_trace) and [`read_trajectory`](crate::read_trajectory).
 pub fn read_any_trace(path: &Path, context: &TrajectoryContext, parser: &mut Parser) -> Result<Trace, FileError> {
+    let file = File::open(path).map_err(|e| FileError::from_io(path, &e))?;
+    any_trace_from(path, file, context, parser)
+}
+
+/// Reads a trace or a trajectory from whatever can be read, such as bytes in memory; errors call it `path`.
+///
+/// # Errors
+/// As for [`read_any_trace`].
+pub fn any_trace_from(
+    path: &Path,
+    input: impl Read,
+    context: &TrajectoryContext,
+    parser: &mut Parser,
+) -> Result<Trace, FileError> {
     let io = |e: std::io::Error| FileError::from_io(path, &e);
-    let mut input = BufReader::new(File::open(path).map_err(io)?);
-    // The file is opened once: it may be a pipe.
+    let mut input = BufReader::new(input);
+    // It is read once: it may be a pipe.
     let mut blank = Vec::new();
     let is_trajectory = loop {
         let bytes = input.fill_buf().map_err(io)?;
@@ -38,11 +52,9 @@ pub fn read_any_trace(path: &Path, context: &TrajectoryContext, parser: &mut Par
             }
         }
     };
-    let mut input = Cursor::new(blank).chain(input);
+    let input = Cursor::new(blank).chain(input);
     if is_trajectory {
-        let mut bytes = Vec::new();
-        input.read_to_end(&mut bytes).map_err(io)?;
-        trajectory_from(path, &text_from(path, bytes)?, context, parser)
+        trajectory_from(path, &text_from(path, input)?, context, parser)
     } else {
         trace_from(path, TraceReader::new(path, input)?, parser)
     }
@@ -76,16 +88,36 @@ pub fn read_dataset(
             traces.push(read_any_trace(&file, context, &mut parser)?);
         }
     }
+    dataset_of(&parser, traces)
+}
+
+/// Reads demonstrations from whatever can be read, each with the name by which errors call it.
+///
+/// # Errors
+/// As for [`read_dataset`].
+pub fn dataset_from<R: Read>(
+    inputs: impl IntoIterator<Item = (PathBuf, R)>,
+    hierarchy: Hierarchy,
+    parse: ParseConfig,
+    context: &TrajectoryContext,
+) -> Result<Dataset, FileError> {
+    let mut parser = Parser::new(hierarchy, parse);
+    let read = |(name, input): (PathBuf, R)| any_trace_from(&name, input, context, &mut parser);
+    let traces = inputs.into_iter().map(read).collect::<Result<_, _>>()?;
+    dataset_of(&parser, traces)
+}
+
+fn dataset_of(parser: &Parser, traces: Vec<Trace>) -> Result<Dataset, FileError> {
     if traces.is_empty() {
         return Err(FileError::new(Path::new(""), "no traces"));
     }
-    Ok(Dataset::new(&parser, traces))
+    Ok(Dataset::new(parser, traces))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ObjectTypes;
+    use crate::{ObjectTypes, hierarchy_from_text};
 
     const TRACE: &str = concat!(
         "{\"format\":\"trace/1\",\"task\":\"t\",\"goal\":[]}\n",
@@ -114,6 +146,24 @@ mod tests {
         assert_eq!(names, ["a.trajectory", "b.jsonl", "b.jsonl"]);
         let predicates: Vec<(&str, usize)> = dataset.predicates.iter().map(|(p, n)| (p.as_str(), *n)).collect();
         assert_eq!(predicates, [("free", 1), ("on", 2)]);
+    }
+
+    #[test]
+    fn what_is_no_file_is_read_alike() {
+        let mut types = ObjectTypes::default();
+        types.add_text(Path::new("objects"), "(:objects a b - block)").expect("types");
+        let dataset = |texts: &[(&str, &str)]| {
+            let hierarchy = hierarchy_from_text(Path::new("types"), "(:types block)".to_owned()).expect("a tree");
+            let inputs = texts.iter().map(|(name, text)| (PathBuf::from(name), text.as_bytes()));
+            dataset_from(inputs, hierarchy, ParseConfig::default(), &types.clone().into())
+        };
+        let texts = [("a.trajectory", "\n; SAM\n((:init (on a b)))"), ("b.jsonl", TRACE)];
+        let of_files = read(&texts, &[""]).expect("a dataset");
+        let of_texts = dataset(&texts).expect("a dataset");
+        assert_eq!(of_texts.traces, of_files.traces);
+        let wrong = dataset(&[("what", "{}")]).expect_err("no header");
+        assert_eq!(wrong.to_string(), "what:1: the first line is not a header");
+        assert_eq!(dataset(&[]).expect_err("nothing").to_string(), "no traces");
     }
 
     #[test]

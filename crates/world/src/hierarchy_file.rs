@@ -16,6 +16,30 @@ pub struct TypesFile {
 }
 
 impl TypesFile {
+    /// Reads the text of a hierarchy file; errors call it `name`.
+    ///
+    /// # Errors
+    /// As for [`read_types`].
+    pub fn from_text(name: &Path, text: String) -> Result<Self, FileError> {
+        let located = |error: PddlError| FileError::from_pddl(name, &text, error);
+        let edges = match text.trim_start().chars().next() {
+            None => return Err(FileError::new(name, "the file is empty")),
+            Some('{') => json_types(name, &text)?,
+            Some('(' | ';') => typelift_pddl::read_types(&text).map_err(located)?,
+            Some(_) => {
+                let what = "this is neither PDDL types nor a JSON object of types";
+                return Err(FileError::new(name, what).with_hint(EXAMPLE.to_owned()));
+            }
+        };
+        for edge in &edges {
+            for ty in [&edge.child, &edge.parent] {
+                check_name(ty.as_str())
+                    .map_err(|error| located(PddlError::new(&text, edge.span, error.to_string())))?;
+            }
+        }
+        Ok(Self { path: name.to_owned(), text, edges })
+    }
+
     /// Each type with its parent, in the order of the file.
     pub fn edges(&self) -> &[TypeEdge] {
         &self.edges
@@ -36,7 +60,15 @@ impl TypesFile {
 /// # Errors
 /// [`FileError`] if it is neither kind, or at the declarations that do not form a tree.
 pub fn read_hierarchy(path: &Path) -> Result<Hierarchy, FileError> {
-    read_types(path)?.extend(&Hierarchy::default())
+    hierarchy_from_text(path, read_text(path)?)
+}
+
+/// Reads the text of a hierarchy file; errors call it `name`.
+///
+/// # Errors
+/// As for [`read_hierarchy`].
+pub fn hierarchy_from_text(name: &Path, text: String) -> Result<Hierarchy, FileError> {
+    TypesFile::from_text(name, text)?.extend(&Hierarchy::default())
 }
 
 /// Reads the types that a hierarchy file declares, to add them to a hierarchy.
@@ -44,26 +76,7 @@ pub fn read_hierarchy(path: &Path) -> Result<Hierarchy, FileError> {
 /// # Errors
 /// [`FileError`] if it is not a hierarchy file.
 pub fn read_types(path: &Path) -> Result<TypesFile, FileError> {
-    let text = read_text(path)?;
-    let edges = match text.trim_start().chars().next() {
-        None => return Err(FileError::new(path, "the file is empty")),
-        Some('{') => json_types(path, &text)?,
-        Some('(' | ';') => {
-            typelift_pddl::read_types(&text).map_err(|error| FileError::from_pddl(path, &text, error))?
-        }
-        Some(_) => {
-            let what = "this is neither PDDL types nor a JSON object of types";
-            return Err(FileError::new(path, what).with_hint(EXAMPLE.to_owned()));
-        }
-    };
-    for edge in &edges {
-        for name in [&edge.child, &edge.parent] {
-            check_name(name.as_str()).map_err(|error| {
-                FileError::from_pddl(path, &text, PddlError::new(&text, edge.span, error.to_string()))
-            })?;
-        }
-    }
-    Ok(TypesFile { path: path.to_owned(), text, edges })
+    TypesFile::from_text(path, read_text(path)?)
 }
 
 const EXAMPLE: &str = "Write `(:types rod leek - piece)` or `{\"rod\": \"piece\", \"leek\": \"piece\"}`.";
@@ -106,10 +119,7 @@ mod tests {
     use super::*;
 
     fn read(text: &str) -> Result<Hierarchy, FileError> {
-        let folder = tempfile::tempdir().expect("a folder");
-        let path = folder.path().join("types");
-        crate::write_file(&path, text.as_bytes()).expect("written");
-        read_hierarchy(&path).map_err(|error| FileError { file: "types".to_owned(), ..error })
+        hierarchy_from_text(Path::new("types"), text.to_owned())
     }
 
     fn edges(text: &str) -> Vec<String> {

@@ -37,13 +37,20 @@ impl ObjectTypes {
     /// # Errors
     /// [`FileError`] if it is no such file.
     pub fn add_file(&mut self, path: &Path) -> Result<(), FileError> {
-        let text = read_text(path)?;
+        self.add_text(path, &read_text(path)?)
+    }
+
+    /// Adds the objects of a text as [`from_file`](Self::from_file) reads a file; errors call it `name`.
+    ///
+    /// # Errors
+    /// [`FileError`] if it is none of what such a file may be.
+    pub fn add_text(&mut self, name: &Path, text: &str) -> Result<(), FileError> {
         let objects = match text.trim_start().chars().next() {
-            None => return Err(FileError::new(path, "the file is empty")),
-            Some('{') => json_objects(path, &text)?,
-            Some('(' | ';') => pddl_objects(path, &text)?.1,
+            None => return Err(FileError::new(name, "the file is empty")),
+            Some('{') => json_objects(name, text)?,
+            Some('(' | ';') => pddl_objects(name, text)?.1,
             Some(_) => {
-                return Err(FileError::new(path, "this is neither PDDL objects nor a JSON object of objects")
+                return Err(FileError::new(name, "this is neither PDDL objects nor a JSON object of objects")
                     .with_hint(
                         "Write `(:objects a b - block)` or `{\"a\": \"block\", \"b\": \"block\"}`.".to_owned(),
                     ));

@@ -24,7 +24,7 @@ pub fn is_pddl(text: &str) -> bool {
 }
 
 impl DomainFile {
-    /// Reads a domain from the text of a file.
+    /// Reads the text of a domain; errors call it `path`.
     ///
     /// # Errors
     /// [`FileError`] if it is not one, or has no model.
@@ -39,11 +39,18 @@ impl DomainFile {
     /// # Errors
     /// [`FileError`] if it is not one, or has no task.
     pub fn read_problem(&self, path: &Path) -> Result<(ActionModel, Task), FileError> {
-        let text = read_text(path)?;
-        let problem = read_problem(&text, &self.domain).map_err(|error| FileError::from_pddl(path, &text, error))?;
+        self.problem_from_text(path, &read_text(path)?)
+    }
+
+    /// Reads the text of a problem; errors call it `name`.
+    ///
+    /// # Errors
+    /// As for [`read_problem`](Self::read_problem).
+    pub fn problem_from_text(&self, name: &Path, text: &str) -> Result<(ActionModel, Task), FileError> {
+        let problem = read_problem(text, &self.domain).map_err(|error| FileError::from_pddl(name, text, error))?;
         let mut model = self.model.clone();
         let task = compile_problem(&problem, &mut model).map_err(|error| match error.part.is_of_problem() {
-            true => located(path, &text, &error),
+            true => located(name, text, &error),
             false => located(&self.path, &self.text, &error),
         })?;
         Ok((model, task))

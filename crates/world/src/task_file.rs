@@ -119,6 +119,41 @@ pub fn check_goal(goal: &[GroundAtom], state: &State, predicates: &BTreeMap<Symb
 }
 
 impl TaskFile {
+    /// Reads the text of a task file; errors call it `name`.
+    ///
+    /// # Errors
+    /// As for [`read_task`].
+    pub fn from_text(name: &Path, text: &str) -> Result<Self, FileError> {
+        if text.trim().is_empty() {
+            return Err(FileError::new(name, "the file is empty"));
+        }
+        if text.trim_start().starts_with(['(', ';']) {
+            let what = "this is a PDDL file; typelift reads tasks as JSON so far";
+            return Err(FileError { unsupported: true, ..FileError::new(name, what) });
+        }
+        let json = |error: serde_json::Error| {
+            let hint = json::hint(&error, text);
+            FileError::from_json(name, 1, &error).with_hint(hint)
+        };
+        match json::format(text).map_err(json)? {
+            None => {
+                let what = format!("there is no \"format\":\"{TASK_FORMAT}\": this is not a task file");
+                return Err(FileError::new(name, what));
+            }
+            Some(found) => {
+                json::check_format(&found, TASK_FORMAT)
+                    .map_err(|(what, hint)| FileError::new(name, what).with_hint(hint))?;
+            }
+        }
+        let ReadTask { goal, state, scenario, seed } = serde_json::from_str(text).map_err(json)?;
+        let mut unread = UnreadKeys::default();
+        if let Some(state) = &state {
+            unread.note(name, None, state.entities());
+        }
+        let state = state.map(SceneLine::scene).transpose().map_err(|what| FileError::new(name, what))?;
+        Ok(Self { goal, state, scenario, seed, warnings: unread.warnings })
+    }
+
     /// The planning task, if there is a state, checked against the model's predicates.
     ///
     /// # Errors
@@ -190,35 +225,7 @@ struct ReadTask {
 /// # Errors
 /// [`FileError`] if it is not one, or is of another version.
 pub fn read_task(path: &Path) -> Result<TaskFile, FileError> {
-    let text = read_text(path)?;
-    if text.trim().is_empty() {
-        return Err(FileError::new(path, "the file is empty"));
-    }
-    if text.trim_start().starts_with(['(', ';']) {
-        let what = "this is a PDDL file; typelift reads tasks as JSON so far";
-        return Err(FileError { unsupported: true, ..FileError::new(path, what) });
-    }
-    let json = |error: serde_json::Error| {
-        let hint = json::hint(&error, &text);
-        FileError::from_json(path, 1, &error).with_hint(hint)
-    };
-    match json::format(&text).map_err(json)? {
-        None => {
-            let what = format!("there is no \"format\":\"{TASK_FORMAT}\": this is not a task file");
-            return Err(FileError::new(path, what));
-        }
-        Some(found) => {
-            json::check_format(&found, TASK_FORMAT)
-                .map_err(|(what, hint)| FileError::new(path, what).with_hint(hint))?;
-        }
-    }
-    let ReadTask { goal, state, scenario, seed } = serde_json::from_str(&text).map_err(json)?;
-    let mut unread = UnreadKeys::default();
-    if let Some(state) = &state {
-        unread.note(path, None, state.entities());
-    }
-    let state = state.map(SceneLine::scene).transpose().map_err(|what| FileError::new(path, what))?;
-    Ok(TaskFile { goal, state, scenario, seed, warnings: unread.warnings })
+    TaskFile::from_text(path, &read_text(path)?)
 }
 
 /// Writes a task file.

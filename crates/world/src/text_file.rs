@@ -1,7 +1,7 @@
 //! Reading a file as text, and writing one so that it is never half written.
 
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, Write};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
 use crate::FileError;
@@ -11,11 +11,21 @@ use crate::FileError;
 /// # Errors
 /// [`FileError`] if it cannot be read, or at the first byte that is not UTF-8.
 pub fn read_text(path: &Path) -> Result<String, FileError> {
-    text_from(path, fs::read(path).map_err(|e| FileError::from_io(path, &e))?)
+    // Unlike a reader, this knows how much there will be.
+    text_of(path, fs::read(path).map_err(|e| FileError::from_io(path, &e))?)
 }
 
-/// The content of a file as text.
-pub(crate) fn text_from(path: &Path, bytes: Vec<u8>) -> Result<String, FileError> {
+/// Reads whatever there is to read as [`read_text`] reads a file; errors call it `name`.
+///
+/// # Errors
+/// [`FileError`] if it cannot be read, or at the first byte that is not UTF-8.
+pub fn text_from(name: &Path, mut input: impl Read) -> Result<String, FileError> {
+    let mut bytes = Vec::new();
+    input.read_to_end(&mut bytes).map_err(|e| FileError::from_io(name, &e))?;
+    text_of(name, bytes)
+}
+
+fn text_of(path: &Path, bytes: Vec<u8>) -> Result<String, FileError> {
     let mut text = String::from_utf8(bytes).map_err(|error| {
         let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let line = 1 + valid.iter().filter(|&&b| b == b'\n').count();
