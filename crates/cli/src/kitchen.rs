@@ -4,7 +4,8 @@ use std::fs::create_dir_all;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use typelift::model::{ParseConfig, Symbol};
+use serde::Serialize;
+use typelift::model::{GroundAtom, GroundCall, ParseConfig, Symbol};
 use typelift::world::{FileError, Parser, Reset, Scene, TaskFile, TraceReader, World, write_file, write_task};
 use typelift_kitchen::{
     Difference, Kitchen as Simulator, KitchenTask, demonstrations, draw, faults, replay, serve, tasks, types_pddl,
@@ -46,12 +47,18 @@ enum Command {
         /// Traces that begin with a snapshot of a kitchen
         #[arg(required = true, value_name = "TRACE")]
         traces: Vec<PathBuf>,
+        /// Print one JSON object a trace instead
+        #[arg(long)]
+        json: bool,
     },
     /// Draw a room
     #[command(after_help = "Example:\n  typelift kitchen draw T5.4 --seed 3")]
     Draw {
         /// A task's or a fault's name; the default room if left out
         task: Option<String>,
+        /// Print the room's state as JSON instead, as tasks and traces have it
+        #[arg(long)]
+        json: bool,
         /// The seed of the room
         #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse_whole, allow_negative_numbers = true)]
         seed: u64,
@@ -66,8 +73,8 @@ impl Kitchen {
                 serve(std::io::stdin().lock(), std::io::stdout().lock())?;
                 Ok(Exit::Success)
             }
-            Command::Replay { traces } => replay_all(traces),
-            Command::Draw { task, seed } => draw_room(task.as_deref(), *seed),
+            Command::Replay { traces, json } => replay_all(traces, *json),
+            Command::Draw { task, json, seed } => draw_room(task.as_deref(), *seed, *json),
         }
     }
 }
@@ -109,19 +116,48 @@ fn task_file(task: &KitchenTask, seed: u64) -> Result<TaskFile, Failure> {
     Ok(TaskFile { goal: task.goal.clone(), state: Some(state), scenario, seed: Some(seed), ..TaskFile::default() })
 }
 
-fn replay_all(traces: &[PathBuf]) -> Result<Exit, Failure> {
+/// What is printed of a replayed trace with `--json`.
+#[derive(Serialize)]
+struct Replayed {
+    trace: String,
+    steps: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    difference: Option<DifferenceJson>,
+}
+
+#[derive(Serialize)]
+struct DifferenceJson {
+    step: usize,
+    call: Option<GroundCall>,
+    refusal: Option<String>,
+    missing: Vec<GroundAtom>,
+    unexpected: Vec<GroundAtom>,
+}
+
+impl From<Difference> for DifferenceJson {
+    fn from(difference: Difference) -> Self {
+        let Difference { step, call, refusal, missing, unexpected } = difference;
+        Self { step, call, refusal: refusal.map(|refusal| refusal.to_string()), missing, unexpected }
+    }
+}
+
+fn replay_all(traces: &[PathBuf], json: bool) -> Result<Exit, Failure> {
     let mut out = anstream::stdout().lock();
     let mut exit = Exit::Success;
     for path in traces {
-        match replay_one(path)? {
-            (steps, None) => {
-                let steps = count(steps as u64, "step");
-                writeln!(out, "{}: {GOOD}no difference{GOOD:#} in {steps}", path.display())?;
-            }
-            (_, Some(difference)) => {
-                exit = Exit::NotAchieved;
-                write!(out, "{}: {}", path.display(), difference_text(&difference))?;
-            }
+        let (steps, difference) = replay_one(path)?;
+        if difference.is_some() {
+            exit = Exit::NotAchieved;
+        }
+        let trace = path.display().to_string();
+        if json {
+            let replayed = Replayed { trace, steps, difference: difference.map(DifferenceJson::from) };
+            writeln!(out, "{}", serde_json::to_string(&replayed).unwrap_or_default())?;
+            continue;
+        }
+        match difference {
+            None => writeln!(out, "{trace}: {GOOD}no difference{GOOD:#} in {}", count(steps as u64, "step"))?,
+            Some(difference) => write!(out, "{trace}: {}", difference_text(&difference))?,
         }
     }
     Ok(exit)
@@ -160,7 +196,7 @@ fn difference_text(difference: &Difference) -> String {
     text
 }
 
-fn draw_room(name: Option<&str>, seed: u64) -> Result<Exit, Failure> {
+fn draw_room(name: Option<&str>, seed: u64, json: bool) -> Result<Exit, Failure> {
     let all: Vec<KitchenTask> = tasks().into_iter().chain(faults()).collect();
     let scenario = match name {
         None => None,
@@ -173,8 +209,12 @@ fn draw_room(name: Option<&str>, seed: u64) -> Result<Exit, Failure> {
         }
     };
     let mut kitchen = Simulator::new();
-    kitchen.reset(&Reset { seed, scenario })?;
+    let scene = kitchen.reset(&Reset { seed, scenario })?;
     let mut out = anstream::stdout().lock();
+    if json {
+        writeln!(out, "{}", serde_json::to_string(&scene).unwrap_or_default())?;
+        return Ok(Exit::Success);
+    }
     write!(out, "{}", kitchen.room().map(draw).unwrap_or_default())?;
     Ok(Exit::Success)
 }

@@ -62,6 +62,9 @@ fn replaying_recordings() {
     let action = flipped("action.jsonl", 2, "\"PICK\"", "\"JUMP\"");
     assert_eq!(action.code, 12);
     insta::assert_snapshot!("replay-action", action);
+    let data = folder.run("kitchen replay K/demos/cut_banana.jsonl atom.jsonl --json");
+    assert_eq!(data.code, 12);
+    insta::assert_snapshot!("replay-json", data);
     folder.write(
         "symbolic.jsonl",
         "{\"format\":\"trace/1\"}\n{\"state\":{\"objects\":{\"a\":\"agent\"},\"atoms\":[]}}\n",
@@ -104,6 +107,9 @@ fn drawing_rooms() {
     let folder = Folder::new();
     insta::assert_snapshot!("draw", folder.run("kitchen draw"));
     insta::assert_snapshot!("draw-task", folder.run("kitchen draw T5.4 --seed 3"));
+    folder.run("kitchen export K -q").succeeds();
+    let state: serde_json::Value = serde_json::from_str(&folder.run("kitchen draw T5.4 --json").out).expect("JSON");
+    assert_eq!(state, folder.json("K/tasks/T5.4.json")["state"], "the same room");
     let wrong = folder.refuses(31, "kitchen draw T5.44");
     assert!(wrong.err.contains("hint: Did you mean `T5.4`?"), "{wrong}");
 }
