@@ -21,7 +21,7 @@ pub(crate) fn alike<'a, K: Ord, S: Ord + Copy, O: Ord>(
             said.entry(object).or_default().push((kind, &atom.predicate, others));
         }
     }
-    let mut classes: BTreeMap<(K, Vec<Said<'a, S, O>>), Vec<&Symbol>> = BTreeMap::new();
+    let mut classes: BTreeMap<_, Vec<&Symbol>> = BTreeMap::new();
     for (object, key) in objects {
         let mut said = said.remove(object).unwrap_or_default();
         said.sort_unstable();
