@@ -159,7 +159,9 @@ impl Imports {
             source_files(src).iter().map(|file| (module_path(src, file), Code::read(file))).collect();
         let tests: BTreeSet<ModulePath> = files
             .iter()
-            .flat_map(|(path, code)| code.test_modules.iter().map(|name| [path.as_slice(), &[name.clone()]].concat()))
+            .flat_map(|(path, code)| {
+                code.test_modules.iter().map(|name| [path.as_slice(), std::slice::from_ref(name)].concat())
+            })
             .collect();
         let files: BTreeMap<ModulePath, Code> = files.into_iter().filter(|(path, _)| !tests.contains(path)).collect();
         let given_on = files.iter().map(|(path, code)| (path.clone(), names_of(code, path))).collect();

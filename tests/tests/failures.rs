@@ -53,7 +53,7 @@ fn names(learned: &Learned) -> Vec<&str> {
 #[test]
 fn a_slip_that_fells_a_cup_is_no_action_that_fells_cups() {
     let slip = not_executed("stands(cup_1)", "PICK(cup_1)", "fallen(cup_1)");
-    let evidence = evidence(&[slip.clone()]);
+    let evidence = evidence(std::slice::from_ref(&slip));
     assert!(evidence.clusters.is_empty() && names(&learned(&evidence)).is_empty());
     let (key, seen) = evidence.negatives.first_key_value().expect("a failure");
     assert_eq!((key.action.as_str(), key.types.as_slice(), seen.count), ("PICK", [Symbol::new("cup")].as_slice(), 1));

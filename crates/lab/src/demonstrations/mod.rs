@@ -85,12 +85,9 @@ impl Experiment for SubsetExperiment<'_> {
     type Record = SubsetRecord;
 
     fn settings(&self) -> Value {
-        json!({
-            "max_expansions": self.options.limits.max_expansions,
-            "max_proposals": self.options.limits.max_proposals,
-            "seconds": self.options.limits.seconds,
-            "seed": self.options.seed,
-        })
+        let mut settings = json!(self.options.limits);
+        settings["seed"] = self.options.seed.into();
+        settings
     }
 
     fn runs(&self) -> Vec<SubsetRun> {

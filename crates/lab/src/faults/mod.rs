@@ -90,11 +90,7 @@ impl Experiment for FaultsExperiment {
     type Record = FaultRecord;
 
     fn settings(&self) -> Value {
-        json!({
-            "max_expansions": self.options.limits.max_expansions,
-            "max_proposals": self.options.limits.max_proposals,
-            "seconds": self.options.limits.seconds,
-        })
+        json!(self.options.limits)
     }
 
     fn runs(&self) -> Vec<FaultRun> {

@@ -96,12 +96,9 @@ impl Experiment for TableExperiment {
     type Record = TableRecord;
 
     fn settings(&self) -> Value {
-        json!({
-            "max_expansions": self.options.limits.max_expansions,
-            "max_proposals": self.options.limits.max_proposals,
-            "seconds": self.options.limits.seconds,
-            "times": self.options.times,
-        })
+        let mut settings = json!(self.options.limits);
+        settings["times"] = self.options.times.into();
+        settings
     }
 
     fn runs(&self) -> Vec<TableRun> {
