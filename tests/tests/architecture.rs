@@ -152,10 +152,10 @@ fn libraries_deny_missing_docs() {
 /// The modules of `plan`, from the bottom up: each may import those before it, none after it.
 #[rustfmt::skip]
 const ORDER_IN_PLAN: &[&str] = &[
-    "fact", "lists", "memory", "outcome", "poll", "restrict", "shuffle",
-    "pattern", "reach", "distinct", "fdr", "ground",
+    "alike", "fact", "lists", "outcome", "poll", "restrict", "shuffle",
+    "pattern", "scope", "reach", "distinct", "fdr", "ground",
     "emit", "explain", "external", "relaxation", "restricted", "symmetry",
-    "scope", "landmark", "heuristic", "search", "strategy", "level", "planner",
+    "landmark", "heuristic", "search", "strategy", "level", "planner",
 ];
 
 /// The same of `pddl`.

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use typelift_model::{GroundAtom, HashMap, Symbol};
+use typelift_model::{ActionModel, GroundAtom, HashMap, Symbol, Term};
 
 /// What one statement says of an object: its kind, its predicate, and what stands beside the object, which is left out.
 type Said<'a, S, O> = (S, &'a Symbol, Vec<Option<O>>);
@@ -28,4 +28,23 @@ pub(crate) fn alike<'a, K: Ord, S: Ord + Copy, O: Ord>(
         classes.entry((key, said)).or_default().push(object);
     }
     classes.into_values().collect()
+}
+
+/// The objects that actions and axioms name.
+pub(crate) fn constants(model: &ActionModel) -> BTreeSet<&Symbol> {
+    let of_actions = model.actions.iter().flat_map(|action| {
+        let conditions = action.effects.iter().flat_map(|effect| effect.condition.iter().chain([&effect.literal]));
+        let atoms = action.preconditions.iter().chain(conditions).map(|literal| &literal.atom);
+        atoms.chain(&action.cost.functions).flat_map(|atom| &atom.args).chain(&action.call.args)
+    });
+    let of_axioms = model.axioms.iter().flat_map(|axiom| {
+        axiom.body.iter().map(|literal| &literal.atom).chain([&axiom.head]).flat_map(|atom| &atom.args)
+    });
+    let mut named = BTreeSet::new();
+    for term in of_actions.chain(of_axioms) {
+        if let Term::Const(name) = term {
+            named.insert(name);
+        }
+    }
+    named
 }

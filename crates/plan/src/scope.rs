@@ -21,8 +21,7 @@ use std::collections::{BTreeSet, VecDeque};
 use typelift_model::{ActionModel, GroundAtom, HashMap, State, Symbol, Task};
 
 use crate::Restrictions;
-use crate::alike::alike;
-use crate::symmetry::constants;
+use crate::alike::{alike, constants};
 
 /// When fewer objects are tried first.
 #[derive(Debug, Clone, Copy)]

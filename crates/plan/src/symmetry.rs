@@ -8,9 +8,9 @@
 
 use std::collections::BTreeSet;
 
-use typelift_model::{ActionModel, HashMap, Symbol, Task, Term};
+use typelift_model::{ActionModel, HashMap, Symbol, Task};
 
-use crate::alike::alike;
+use crate::alike::{alike, constants};
 use crate::fact::FactId;
 use crate::fdr::{ActionIndex, Fdr, Values};
 use crate::ground::{GroundTask, Op};
@@ -180,23 +180,4 @@ fn classes(model: &ActionModel, task: &Task) -> Vec<Vec<Symbol>> {
     let mut classes: Vec<Vec<Symbol>> = several.map(|class| class.into_iter().cloned().collect()).collect();
     classes.sort_unstable();
     classes
-}
-
-/// The objects that actions and axioms name.
-pub(crate) fn constants(model: &ActionModel) -> BTreeSet<&Symbol> {
-    let of_actions = model.actions.iter().flat_map(|action| {
-        let conditions = action.effects.iter().flat_map(|effect| effect.condition.iter().chain([&effect.literal]));
-        let atoms = action.preconditions.iter().chain(conditions).map(|literal| &literal.atom);
-        atoms.chain(&action.cost.functions).flat_map(|atom| &atom.args).chain(&action.call.args)
-    });
-    let of_axioms = model.axioms.iter().flat_map(|axiom| {
-        axiom.body.iter().map(|literal| &literal.atom).chain([&axiom.head]).flat_map(|atom| &atom.args)
-    });
-    let mut named = BTreeSet::new();
-    for term in of_actions.chain(of_axioms) {
-        if let Term::Const(name) = term {
-            named.insert(name);
-        }
-    }
-    named
 }
