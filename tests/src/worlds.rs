@@ -1,7 +1,7 @@
 //! Kitchens that are watched, and in which things happen that nobody planned.
 
 use typelift::agent::{Account, Confirmation, Episode, Event, Experience, Options, run};
-use typelift::model::{ActionModel, Budget, GroundCall, ParseConfig, Plan, State};
+use typelift::model::{ActionModel, Budget, GroundCall, ParseConfig, Plan, State, Symbol};
 use typelift::world::{Acted, Parser, Reset, Scene, World, WorldError};
 use typelift_kitchen::{Kitchen, KitchenTask};
 
@@ -75,8 +75,10 @@ impl World for Watched {
 pub struct Ran {
     /// What the agent says of it.
     pub account: Account,
-    /// What it has learned to avoid.
+    /// What was tried, and what came of it.
     pub experience: Experience,
+    /// The instance of the kitchen.
+    pub instance: Symbol,
     /// What happened, in order.
     pub events: Vec<Event>,
     /// The state that the world was left in.
@@ -109,10 +111,11 @@ pub fn run_in(
     assert_eq!(account.actions as usize, world.told.len() - told, "{}: every action is accounted for", task.name);
     let count = |wanted: fn(&Event) -> bool| events.iter().filter(|event| wanted(event)).count();
     assert_eq!(account.proposals as usize, count(|e| matches!(e, Event::Proposed { .. })), "{}", task.name);
-    let excluded: usize = account.failures.iter().map(|failure| failure.excluded.len()).sum();
+    let excluded: usize = account.failures.iter().map(|failure| failure.suspects.len()).sum();
     assert_eq!(excluded, count(|e| matches!(e, Event::Excluded { .. })), "{}", task.name);
     assert_eq!(1, count(|e| matches!(e, Event::Ended { .. })), "{}", task.name);
-    Ran { account, experience: episode.experience().clone(), events, left }
+    let (experience, instance) = (episode.experience().clone(), episode.instance().clone());
+    Ran { account, experience, instance, events, left }
 }
 
 /// Approves every plan.

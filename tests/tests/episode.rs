@@ -3,10 +3,15 @@
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
-use typelift::agent::{Account, Command, Ending, Episode, Experience, Input, Options, StepResult};
+use typelift::agent::{
+    Account, Command, CommandId, Ending, Episode, EpisodeError, Event, Experience, Input, Objection, Options,
+    StepResult, Suspect, WireCommand,
+};
 use typelift::learn::{evidence_of, learn};
-use typelift::model::{ActionModel, Budget, GroundAtom, GroundCall, Hierarchy, ParseConfig, Plan, State, Stop, Symbol};
-use typelift::plan::Exclusion;
+use typelift::model::{
+    ActionModel, Budget, GoalError, GroundAtom, GroundCall, Hierarchy, ParseConfig, Plan, State, Symbol,
+};
+use typelift::plan::{self, Exclusion};
 use typelift::world::{Dataset, Parser, Scene, Trace, TraceAction, Verdict};
 
 fn failed_calls(account: &Account) -> Vec<String> {
@@ -50,6 +55,9 @@ fn bench(parser: &mut Parser, objects: &[(&str, &str)], atoms: &[&str]) -> State
 /// An episode with a beam and two saws, and the states in which the beam is whole and cut.
 struct ByHand {
     episode: Episode,
+    /// The last command.
+    command: Command,
+    events: Vec<Event>,
     whole: State,
     cut: State,
     parser: Parser,
@@ -57,96 +65,170 @@ struct ByHand {
 
 const BENCH: [(&str, &str); 3] = [("saw_1", "saw"), ("saw_2", "saw"), ("b", "beam")];
 
+/// A command in words.
+fn told(command: &Command) -> String {
+    match command {
+        Command::Reset { .. } => "reset".to_owned(),
+        Command::Observe { .. } => "observe".to_owned(),
+        Command::Propose { plan, .. } => {
+            let calls: Vec<String> = plan.steps.iter().map(|step| step.call.to_string()).collect();
+            format!("propose {}", calls.join(" "))
+        }
+        Command::Act { call, .. } => format!("act {call}"),
+        Command::Await { call, .. } => format!("await {call}"),
+        Command::Done(account) => format!("done, {}", account.ending.word()),
+    }
+}
+
+fn id(command: &Command) -> CommandId {
+    match command {
+        Command::Reset { id }
+        | Command::Observe { id }
+        | Command::Propose { id, .. }
+        | Command::Act { id, .. }
+        | Command::Await { id, .. } => *id,
+        Command::Done(_) => CommandId::default(),
+    }
+}
+
 impl ByHand {
     fn new(options: Options) -> Self {
         let (model, mut parser) = saws();
         let goal = vec![GroundAtom::parse("cut(b)").expect("an atom")];
-        let episode = Episode::new(model, goal, options, Experience::new(), Budget::unlimited());
+        let mut episode = Episode::new(model, goal, options, Experience::new(), Budget::unlimited());
         let (whole, cut) = (bench(&mut parser, &BENCH, &["whole(b)"]), bench(&mut parser, &BENCH, &["cut(b)"]));
-        Self { episode, whole, cut, parser }
+        let command = episode.step(Input::Started, &mut ()).expect("nothing was planned");
+        assert_eq!(told(&command), "reset");
+        Self { episode, command, events: Vec::new(), whole, cut, parser }
+    }
+
+    /// One to which a plan was proposed.
+    fn asked(options: Options) -> Self {
+        let mut this = Self::new(options);
+        let whole = this.whole.clone();
+        assert_eq!(this.reset(whole), "propose cut(saw_1, b)");
+        this
     }
 
     /// One that has started to cut with the first saw.
     fn cutting(options: Options) -> Self {
-        let mut this = Self::new(options);
-        assert_eq!(this.step(Input::Started), Command::Reset);
-        let whole = this.whole.clone();
-        assert_eq!(this.proposed(Input::Observation(whole)), [cut("saw_1", "b")]);
-        assert_eq!(this.step(Input::Approve), Command::Act(cut("saw_1", "b")));
+        let mut this = Self::asked(options);
+        assert_eq!(this.approve(), "act cut(saw_1, b)");
         this
     }
 
-    fn step(&mut self, input: Input) -> Command {
-        self.episode.step(input, &mut ()).expect("the planner does not err")
+    fn input(&mut self, input: Input) -> String {
+        self.command = self.episode.step(input, &mut self.events).expect("the planner does not err");
+        told(&self.command)
     }
 
-    fn proposed(&mut self, input: Input) -> Vec<GroundCall> {
-        match self.step(input) {
-            Command::Propose(plan) => plan.steps.into_iter().map(|step| step.call).collect(),
+    /// Answers the last command.
+    fn answer(&mut self, input: impl FnOnce(CommandId) -> Input) -> String {
+        self.input(input(id(&self.command)))
+    }
+
+    fn reset(&mut self, state: State) -> String {
+        self.answer(|id| Input::Reset { id, state, instance: None })
+    }
+
+    fn observed(&mut self, state: State) -> String {
+        self.answer(|id| Input::Observation { id, state })
+    }
+
+    fn approve(&mut self) -> String {
+        self.answer(|id| Input::Approve { id })
+    }
+
+    fn timed_out(&mut self) -> String {
+        self.answer(|id| Input::TimedOut { id })
+    }
+
+    fn refused(&mut self) -> String {
+        let state = self.whole.clone();
+        self.answer(|id| Input::Refused { id, reason: "jammed".to_owned(), state })
+    }
+
+    fn reject(&mut self, step: usize, objection: Option<Objection>) -> String {
+        self.answer(|id| Input::Reject { id, step, objection, reason: "blunt".to_owned() })
+    }
+
+    fn account(&self) -> &Account {
+        match &self.command {
+            Command::Done(account) => account,
             other => panic!("{other:?}"),
         }
-    }
-
-    fn done(&mut self, input: Input) -> Account {
-        match self.step(input) {
-            Command::Done(account) => *account,
-            other => panic!("{other:?}"),
-        }
-    }
-
-    fn refused(&self) -> Input {
-        Input::Refused { reason: "jammed".to_owned(), state: self.whole.clone() }
     }
 }
 
 #[test]
 fn a_goal_that_holds_needs_nothing() {
     let mut it = ByHand::new(Options::default());
-    assert_eq!(it.step(Input::Started), Command::Reset);
     let cut = it.cut.clone();
-    let account = it.done(Input::Observation(cut));
-    assert!(account.solved() && account.proposals == 0 && account.plan == Some(Plan::default()));
+    assert_eq!(it.reset(cut), "done, solved");
+    assert!(it.account().proposals == 0 && it.account().plan == Some(Plan::default()));
+}
+
+#[test]
+fn a_goal_is_held_against_what_is_seen_first() {
+    let (model, mut parser) = saws();
+    let whole = bench(&mut parser, &BENCH, &["whole(b)"]);
+    let error = |goal: &str| {
+        let goal = vec![GroundAtom::parse(goal).expect("an atom")];
+        let options = Options::default();
+        let mut episode = Episode::new(Arc::clone(&model), goal, options, Experience::new(), Budget::unlimited());
+        let reset = id(&episode.step(Input::Started, &mut ()).expect("nothing was planned"));
+        let input = Input::Reset { id: reset, state: whole.clone(), instance: None };
+        match episode.step(input, &mut ()) {
+            Err(EpisodeError::Goal(error)) => error,
+            other => panic!("{other:?}"),
+        }
+    };
+    let near = |name: &str| Some(Symbol::new(name));
+    assert!(matches!(error("cutt(b)"), GoalError::UnknownPredicate { near: Some(name), .. } if name == *"cut"));
+    assert!(matches!(error("cut(b,saw_1)"), GoalError::Arity { expected: 1, .. }));
+    let GoalError::UnknownObject { object, near: found, .. } = error("cut(saw_3)") else { panic!("it is not there") };
+    assert!(object == *"saw_3" && (found == near("saw_1") || found == near("saw_2")), "{found:?}");
 }
 
 #[test]
 fn a_refusal_is_tried_again_then_blamed() {
     let mut it = ByHand::cutting(Options::default());
-    let refused = it.refused();
-    assert_eq!(it.step(refused.clone()), Command::Act(cut("saw_1", "b")), "once more");
-    assert_eq!(it.proposed(refused), [cut("saw_2", "b")]);
-    assert_eq!(it.step(Input::Approve), Command::Act(cut("saw_2", "b")));
+    assert_eq!(it.refused(), "act cut(saw_1, b)", "once more");
+    assert_eq!(it.refused(), "propose cut(saw_2, b)");
+    assert_eq!(it.approve(), "act cut(saw_2, b)");
     let after = it.cut.clone();
-    let account = it.done(Input::Observation(after));
-    assert!(account.solved());
+    assert_eq!(it.observed(after), "done, solved");
+    let account = it.account();
     assert_eq!((account.proposals, account.actions), (2, 3));
     let [failure] = account.failures.as_slice() else { panic!("{:?}", account.failures) };
     assert_eq!((failure.result, failure.reason.as_deref()), (StepResult::Tried(Verdict::Refused), Some("jammed")));
-    let blamed = Exclusion { object: Symbol::new("saw_1"), call: Some(Symbol::new("cut")) };
-    assert_eq!(failure.excluded, [blamed]);
-    let (_, why) = it.episode.experience().exclusions().next().expect("one");
-    assert_eq!((why.reason.as_str(), why.count), ("cut(saw_1, b) jammed", 1));
+    let blamed = Suspect::Object(Exclusion { object: Symbol::new("saw_1"), call: Some(Symbol::new("cut")) });
+    assert_eq!(failure.suspects, [blamed.clone()]);
+    let suspects = it.episode.experience().suspects(it.episode.instance());
+    let [(suspect, why)] = suspects.as_slice() else { panic!("{suspects:?}") };
+    assert_eq!((suspect, why.reason.as_str(), why.count), (&blamed, "cut(saw_1, b) jammed", 1));
 }
 
 #[test]
 fn when_every_saw_is_jammed_it_ends_with_a_reason() {
     for restart in [true, false] {
         let mut it = ByHand::cutting(Options { restart, retries: Some(0), ..Options::default() });
-        let (refused, whole) = (it.refused(), it.whole.clone());
+        let whole = it.whole.clone();
         if restart {
-            assert_eq!(it.step(refused.clone()), Command::Reset);
-            assert_eq!(it.proposed(Input::Observation(whole.clone())), [cut("saw_2", "b")]);
+            assert_eq!(it.refused(), "reset");
+            assert_eq!(it.reset(whole.clone()), "propose cut(saw_2, b)");
         } else {
-            assert_eq!(it.proposed(refused.clone()), [cut("saw_2", "b")]);
+            assert_eq!(it.refused(), "propose cut(saw_2, b)");
         }
-        assert_eq!(it.step(Input::Approve), Command::Act(cut("saw_2", "b")));
-        let account = if restart {
-            assert_eq!(it.step(refused), Command::Reset);
-            it.done(Input::Observation(whole))
+        assert_eq!(it.approve(), "act cut(saw_2, b)");
+        if restart {
+            assert_eq!(it.refused(), "reset");
+            assert_eq!(it.reset(whole), "done, no_plan");
         } else {
-            it.done(refused)
-        };
-        assert_eq!(failed_calls(&account), ["cut(saw_1, b)", "cut(saw_2, b)"]);
-        let Ending::NoPlan(why) = &account.ending else { panic!("{:?}", account.ending) };
+            assert_eq!(it.refused(), "done, no_plan");
+        }
+        assert_eq!(failed_calls(it.account()), ["cut(saw_1, b)", "cut(saw_2, b)"]);
+        let Ending::NoPlan(why) = &it.account().ending else { panic!("{:?}", it.account().ending) };
         assert!(why.to_string().contains("there is no saw that may be used"), "{why}");
     }
 }
@@ -155,45 +237,44 @@ fn when_every_saw_is_jammed_it_ends_with_a_reason() {
 fn the_state_is_believed_not_the_refusal() {
     let mut it = ByHand::cutting(Options::default());
     let state = it.cut.clone();
-    let account = it.done(Input::Refused { reason: "I think it went wrong".to_owned(), state });
-    assert!(account.solved() && account.failures.is_empty());
+    let refused = it.answer(|id| Input::Refused { id, reason: "I think it went wrong".to_owned(), state });
+    assert_eq!(refused, "done, solved");
+    assert!(it.account().failures.is_empty());
 }
 
 #[test]
 fn after_a_time_out_it_looks() {
     // It had worked.
     let mut it = ByHand::cutting(Options::default());
-    assert_eq!(it.step(Input::TimedOut), Command::Observe);
-    assert_eq!(it.step(Input::TimedOut), Command::Observe, "until something is seen");
+    assert_eq!(it.timed_out(), "observe");
+    assert_eq!(it.timed_out(), "observe", "until something is seen");
     let cut_state = it.cut.clone();
-    assert!(it.done(Input::Observation(cut_state)).solved());
+    assert_eq!(it.observed(cut_state), "done, solved");
 
     // It had not: tried again, then blamed.
     let mut it = ByHand::cutting(Options::default());
     let whole = it.whole.clone();
-    assert_eq!(it.step(Input::TimedOut), Command::Observe);
-    assert_eq!(it.step(Input::Observation(whole.clone())), Command::Act(cut("saw_1", "b")));
-    assert_eq!(it.step(Input::TimedOut), Command::Observe);
-    assert_eq!(it.proposed(Input::Observation(whole)), [cut("saw_2", "b")]);
-    let account = it.done(Input::Stop);
-    assert_eq!(account.ending, Ending::Stopped(Stop::Cancelled));
-    assert_eq!(account.failures.iter().map(|f| f.result).collect::<Vec<_>>(), [StepResult::Tried(Verdict::TimedOut)]);
-    assert_eq!(account.actions, 2);
+    assert_eq!(it.timed_out(), "observe");
+    assert_eq!(it.observed(whole.clone()), "act cut(saw_1, b)");
+    assert_eq!(it.timed_out(), "observe");
+    assert_eq!(it.observed(whole), "propose cut(saw_2, b)");
+    assert_eq!(it.input(Input::Stop), "done, stopped");
+    assert_eq!(
+        it.account().failures.iter().map(|f| f.result).collect::<Vec<_>>(),
+        [StepResult::Tried(Verdict::TimedOut)]
+    );
+    assert_eq!(it.account().actions, 2);
 }
 
 #[test]
 fn a_rejection_before_anything_was_done_needs_no_reset() {
     for restart in [true, false] {
-        let mut it = ByHand::new(Options { restart, ..Options::default() });
-        let whole = it.whole.clone();
-        it.step(Input::Started);
-        assert_eq!(it.proposed(Input::Observation(whole)), [cut("saw_1", "b")]);
-        let reject = |step| Input::Reject { step, reason: "blunt".to_owned() };
+        let mut it = ByHand::asked(Options { restart, ..Options::default() });
         // A step that there is not counts as the nearest that there is.
-        assert_eq!(it.proposed(reject(99)), [cut("saw_2", "b")]);
-        let account = it.done(reject(0));
-        assert!(has_reason(&account.ending));
-        assert_eq!((account.actions, account.failures.len()), (0, 2));
+        assert_eq!(it.reject(99, None), "propose cut(saw_2, b)");
+        assert_eq!(it.reject(0, None), "done, no_plan");
+        assert!(has_reason(&it.account().ending));
+        assert_eq!((it.account().actions, it.account().failures.len()), (0, 2));
     }
 }
 
@@ -201,20 +282,121 @@ fn a_rejection_before_anything_was_done_needs_no_reset() {
 fn inputs_that_do_not_fit_change_nothing() {
     let mut it = ByHand::new(Options::default());
     let (whole, after) = (it.whole.clone(), it.cut.clone());
-    assert_eq!(it.step(Input::Observation(after.clone())), Command::Reset, "nothing is believed before the start");
-    assert_eq!(it.step(Input::Approve), Command::Reset);
-    assert_eq!(it.step(Input::TimedOut), Command::Reset, "a slow reset is no initial state");
-    let plan = it.proposed(Input::Observation(whole));
-    assert_eq!(it.proposed(Input::Observation(after.clone())), plan);
-    assert_eq!(it.proposed(Input::TimedOut), plan);
-    assert_eq!(it.step(Input::Approve), Command::Act(cut("saw_1", "b")));
-    assert_eq!(it.step(Input::Approve), Command::Observe, "approved twice is not executed twice");
-    let account = it.done(Input::Observation(after));
-    assert!(account.solved());
+    assert_eq!(it.observed(after.clone()), "reset", "only what was reset is an initial state");
+    assert_eq!(it.approve(), "reset");
+    assert_eq!(it.timed_out(), "reset", "a slow reset is no initial state");
+    let proposal = it.reset(whole.clone());
+    assert_eq!(it.observed(after.clone()), proposal);
+    assert_eq!(it.reset(whole), proposal);
+    assert_eq!(it.timed_out(), proposal);
+    assert_eq!(it.approve(), "act cut(saw_1, b)");
+    assert_eq!(it.approve(), "await cut(saw_1, b)", "approved twice is not executed twice");
+    assert_eq!(it.input(Input::Started), "await cut(saw_1, b)", "nor is it begun again for whoever asks what stands");
+    assert_eq!(it.observed(after), "done, solved");
+    let account = it.account().clone();
     assert_eq!(account.actions, 1);
-    for input in [Input::Started, Input::Approve, Input::TimedOut] {
-        assert_eq!(it.done(input), account, "what is over stays over");
+    let over = CommandId::default();
+    for input in [Input::Started, Input::Approve { id: over }, Input::TimedOut { id: over }] {
+        assert_eq!(it.input(input), "done, solved");
+        assert_eq!(*it.account(), account, "what is over stays over");
     }
+}
+
+#[test]
+fn an_approval_counts_for_the_plan_that_was_shown() {
+    let mut it = ByHand::asked(Options::default());
+    let shown = id(&it.command);
+    // On another page somebody says no, and the next plan is proposed.
+    let proposal = it.reject(1, None);
+    assert_eq!(proposal, "propose cut(saw_2, b)");
+    let standing = it.command.clone();
+    for stale in [
+        Input::Approve { id: shown },
+        Input::AnotherPlan { id: shown },
+        Input::Reject { id: shown, step: 1, objection: None, reason: "blunt".to_owned() },
+    ] {
+        assert_eq!(it.input(stale), proposal);
+        assert_eq!(it.command, standing);
+    }
+    assert_eq!(it.approve(), "act cut(saw_2, b)");
+    assert_eq!(it.episode.experience().failures().len(), 1);
+}
+
+#[test]
+fn a_result_counts_for_the_action_that_it_answers() {
+    let mut it = ByHand::cutting(Options::default());
+    let (first, whole, after) = (id(&it.command), it.whole.clone(), it.cut.clone());
+    let late = |state: &State| Input::Observation { id: first, state: state.clone() };
+    assert_eq!(it.timed_out(), "observe");
+    // What was on its way when the time was up is not what is seen now.
+    assert_eq!(it.input(late(&after)), "observe");
+    assert_eq!(it.observed(whole), "act cut(saw_1, b)", "once more");
+    let standing = id(&it.command);
+    assert_eq!(it.input(late(&after)), "await cut(saw_1, b)", "nor the result of the second try");
+    assert_eq!(it.input(Input::TimedOut { id: first }), "await cut(saw_1, b)");
+    assert_eq!(id(&it.command), standing);
+    assert_eq!(it.observed(after), "done, solved");
+    assert_eq!(it.account().actions, 2);
+}
+
+#[test]
+fn another_plan_says_nothing_against_the_first() {
+    // Two ways to a state are kept.
+    let plan = plan::Options { plans: 2, ..plan::Options::default() };
+    let mut it = ByHand::asked(Options { plan, ..Options::default() });
+    let planning = |it: &ByHand| it.events.iter().filter(|e| matches!(e, Event::PlanningStarted { .. })).count();
+    let searches = planning(&it);
+    assert_eq!(it.answer(|id| Input::AnotherPlan { id }), "propose cut(saw_2, b)");
+    assert_eq!(planning(&it), searches, "the same search goes on");
+    let stands = it.command.clone();
+    assert_eq!(it.answer(|id| Input::AnotherPlan { id }), "propose cut(saw_2, b)");
+    assert_eq!(it.command, stands, "there is no third one, and the second stands");
+    assert_eq!(it.events.last(), Some(&Event::NoOtherPlan { proposal: 2 }));
+    assert_eq!(it.approve(), "act cut(saw_2, b)");
+    let after = it.cut.clone();
+    assert_eq!(it.observed(after), "done, solved");
+    assert!(it.account().failures.is_empty() && it.episode.experience().failures().is_empty());
+}
+
+#[test]
+fn what_a_person_objects_to_is_what_is_avoided() {
+    let saw_1 = || vec![Symbol::new("saw_1")];
+    let suspects = |it: &ByHand| -> Vec<String> {
+        let suspects = it.episode.experience().suspects(it.episode.instance());
+        suspects.iter().map(|(suspect, _)| suspect.to_string()).collect()
+    };
+    let mut it = ByHand::asked(Options::default());
+    assert_eq!(it.reject(1, Some(Objection::Broken { objects: saw_1() })), "propose cut(saw_2, b)");
+    assert_eq!(suspects(&it), ["saw_1 from cut"]);
+    // No kind of saw: nothing is left, and it is not lifted either.
+    let mut it = ByHand::asked(Options::default());
+    assert_eq!(it.reject(1, Some(Objection::WrongKind { objects: saw_1() })), "done, no_plan");
+    assert_eq!(suspects(&it), ["any saw from cut for cut"]);
+    // Not while it is whole: then it cannot be cut at all.
+    let mut it = ByHand::asked(Options::default());
+    let atom = GroundAtom::parse("whole(b)").expect("an atom");
+    assert_eq!(it.reject(1, Some(Objection::While { atom })), "done, no_plan");
+    assert_eq!(suspects(&it), ["cut while whole(b)"]);
+    // Only not now.
+    let mut it = ByHand::asked(Options::default());
+    assert_eq!(it.reject(1, Some(Objection::NotNow)), "propose cut(saw_2, b)");
+    assert!(suspects(&it).is_empty());
+    let later = it.episode.experience().clone();
+    let goal = vec![GroundAtom::parse("cut(b)").expect("an atom")];
+    let mut next = Episode::new(saws().0, goal, Options::default(), later, Budget::unlimited());
+    let reset = id(&next.step(Input::Started, &mut ()).expect("nothing was planned"));
+    let begun = Input::Reset { id: reset, state: it.whole.clone(), instance: None };
+    assert_eq!(told(&next.step(begun, &mut ()).expect("a plan")), "propose cut(saw_1, b)");
+}
+
+#[test]
+fn an_objection_that_is_not_about_the_step_changes_nothing() {
+    let mut it = ByHand::asked(Options::default());
+    let (other, unknown) = (vec![Symbol::new("saw_2")], GroundAtom::parse("rusty(b)").expect("an atom"));
+    for objection in [Objection::Broken { objects: other }, Objection::While { atom: unknown }] {
+        assert_eq!(it.reject(1, Some(objection)), "propose cut(saw_1, b)");
+    }
+    assert!(it.episode.experience().failures().is_empty());
 }
 
 #[test]
@@ -223,27 +405,57 @@ fn objects_come_and_go() {
     // The saw at work vanishes, a cat arrives.
     let objects = [("saw_2", "saw"), ("b", "beam"), ("cat_1", "cat")];
     let state = bench(&mut it.parser, &objects, &["whole(b)"]);
-    assert_eq!(it.proposed(Input::Observation(state)), [cut("saw_2", "b")]);
-    assert_eq!(it.step(Input::Approve), Command::Act(cut("saw_2", "b")));
+    assert_eq!(it.observed(state), "propose cut(saw_2, b)");
+    assert_eq!(it.approve(), "act cut(saw_2, b)");
     // Then the beam does.
     let state = bench(&mut it.parser, &[("saw_2", "saw")], &[]);
-    let account = it.done(Input::Observation(state));
-    assert!(has_reason(&account.ending), "{:?}", account.ending);
+    assert_eq!(it.observed(state), "done, no_plan");
+    assert!(has_reason(&it.account().ending), "{:?}", it.account().ending);
 }
 
 #[test]
 fn the_number_of_proposals_is_limited() {
     let mut it = ByHand::cutting(Options { max_proposals: 1, retries: Some(0), ..Options::default() });
-    let refused = it.refused();
-    assert_eq!(it.done(refused).ending, Ending::ProposalLimit(1));
+    it.refused();
+    assert_eq!(it.account().ending, Ending::ProposalLimit(1));
 }
 
 #[test]
 fn a_changed_mind_about_the_ending_is_not_recorded() {
     let mut it = ByHand::cutting(Options::default());
     let after = it.cut.clone();
-    assert!(it.done(Input::Observation(after)).solved());
-    let (episode, account) = (&mut it.episode, Ending::Solved);
-    let Ok(Command::Done(again)) = episode.step(Input::Stop, &mut ()) else { panic!("it is over") };
-    assert_eq!(again.ending, account, "stopping what is solved does not unsolve it");
+    assert_eq!(it.observed(after), "done, solved");
+    assert_eq!(it.input(Input::Stop), "done, solved", "stopping what is solved does not unsolve it");
+}
+
+#[test]
+fn commands_and_inputs_go_over_a_wire() {
+    let mut it = ByHand::asked(Options::default());
+    let hierarchy = saws().0.hierarchy.clone();
+    let wire = |command: &Command| {
+        let command = command.to_wire(&hierarchy);
+        let text = serde_json::to_string(&command).expect("JSON");
+        assert_eq!(serde_json::from_str::<WireCommand>(&text).expect("a command"), command);
+        text
+    };
+    let plan = r#"{"steps":[{"action":"cut-saw-piece","call":{"name":"cut","args":["saw_1","b"]}}]}"#;
+    assert_eq!(wire(&it.command), format!(r#"{{"command":"propose","id":2,"plan":{plan}}}"#));
+    let mut parser = it.parser.clone();
+    let mut read = |text: &str| {
+        let input: Input<Scene> = serde_json::from_str(text).expect("an input");
+        assert_eq!(
+            serde_json::from_str::<Input<Scene>>(&serde_json::to_string(&input).expect("JSON")).ok(),
+            Some(input.clone())
+        );
+        input.parsed(&mut parser).expect("a state")
+    };
+    assert_eq!(it.input(read(r#"{"input":"approve","id":1}"#)), "propose cut(saw_1, b)", "that is another command");
+    assert_eq!(it.input(read(r#"{"input":"approve","id":2}"#)), "act cut(saw_1, b)");
+    assert_eq!(wire(&it.command), r#"{"command":"act","id":3,"call":{"name":"cut","args":["saw_1","b"]}}"#);
+    let state = r#"{"objects":{"saw_1":"saw","saw_2":"saw","b":"beam"},"atoms":["cut(b)"]}"#;
+    let observed = format!(r#"{{"input":"observation","id":3,"state":{state}}}"#);
+    assert_eq!(it.input(read(&observed)), "done, solved");
+    assert_eq!(wire(&it.command), r#"{"command":"done","ending":"solved","proposals":1,"actions":1}"#);
+    let no = r#"{"input":"reject","id":2,"step":1,"objection":{"because":"while","atom":"wet(b)"},"reason":"wet"}"#;
+    assert!(matches!(read(no), Input::Reject { objection: Some(Objection::While { .. }), .. }));
 }

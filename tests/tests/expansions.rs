@@ -162,7 +162,7 @@ fn on_tasks_of_the_kitchen() {
         let asked = planning_task(&model, task, 0);
         let nothing = Restrictions::default();
         let proposal = propose(&model, &asked, &nothing, &options, &Budget::unlimited()).expect("a plan");
-        (name, proposal.model, asked)
+        (name, typelift::model::ActionModel::clone(&proposal.model), asked)
     }));
     insta::assert_snapshot!(tables);
 }

@@ -7,7 +7,9 @@ use proptest::prelude::*;
 use typelift::agent::{Options, propose};
 use typelift::imagine;
 use typelift::model::{ActionModel, Budget, Step, Symbol, Task};
-use typelift::plan::{Ban, Exclusion, Options as PlanOptions, Outcome, Planner, Restrictions, TieOrder, ground};
+use typelift::plan::{
+    Ban, Exclusion, Options as PlanOptions, Outcome, Planner, Restrictions, TieOrder, TypeExclusion, ground,
+};
 use typelift_kitchen::tasks;
 use typelift_model::testing::cases;
 use typelift_tests::{kitchen_model, planning_task};
@@ -49,6 +51,22 @@ fn restrictions(model: &ActionModel, task: &Task, bans: &[usize], excluded: &[(u
     restrictions
 }
 
+/// Types excluded by numbers: an action by its place, one or two of its call's arguments, an object of the type.
+fn type_exclusions(model: &ActionModel, task: &Task, picks: &[(usize, usize, bool)]) -> BTreeSet<TypeExclusion> {
+    let objects: Vec<&Symbol> = task.init.objects.keys().collect();
+    let exclusion = |&(action, object, by_effect): &(usize, usize, bool)| {
+        let schema = &model.actions[action % model.actions.len()];
+        let places = (0..schema.call.args.len()).filter(|place| place % 2 == object % 2 || action % 3 == 0);
+        let ty = |place: usize| model.hierarchy.name(task.init.objects[objects[(object + place) % objects.len()]]);
+        TypeExclusion {
+            call: schema.call.name.clone(),
+            adds: schema.adds().take(usize::from(by_effect)).map(|atom| atom.predicate.clone()).collect(),
+            types: places.take(2).map(|place| (place, ty(place).clone())).collect(),
+        }
+    };
+    picks.iter().map(exclusion).filter(|exclusion| !exclusion.types.is_empty()).collect()
+}
+
 /// The same ground actions and the same outcome.
 fn assert_same(model: &ActionModel, task: &Task, restrictions: &Restrictions) -> Outcome {
     let (compiled, stated) = restrictions.compiled_into(model, task);
@@ -71,6 +89,7 @@ fn plans_of_the_kitchen_are_the_same() {
         let model = &proposal.model;
         let mut restrictions =
             restrictions(model, &asked, &[number * 97, number * 31 + 5], &[(number * 13 + 1, number)]);
+        restrictions.types = type_exclusions(model, &asked, &[(number * 7, number * 5, number % 2 == 0)]);
         let found = assert_same(model, &asked, &restrictions);
         solved += usize::from(matches!(found, Outcome::Solved(_)));
         // Mostly, nothing else leads to the goal than what the plan rests on.
@@ -93,8 +112,10 @@ proptest! {
         tiny in typelift_model::testing::tiny(2),
         bans in prop::collection::vec(any::<usize>(), 0..4),
         excluded in prop::collection::vec((any::<usize>(), any::<usize>()), 0..3),
+        types in prop::collection::vec(any::<(usize, usize, bool)>(), 0..3),
     ) {
-        let restrictions = restrictions(&tiny.model, &tiny.task, &bans, &excluded);
+        let mut restrictions = restrictions(&tiny.model, &tiny.task, &bans, &excluded);
+        restrictions.types = type_exclusions(&tiny.model, &tiny.task, &types);
         assert_same(&tiny.model, &tiny.task, &restrictions);
     }
 }

@@ -1,12 +1,16 @@
 //! The account of an episode: what was tried, what failed and was excluded and why, and how it ended.
 
+use serde::{Deserialize, Serialize};
 use typelift_model::{GroundCall, Plan, Stop, Symbol};
-use typelift_plan::{Exclusion, Explanation};
+use typelift_plan::Explanation;
 
+use crate::blame::Suspect;
 use crate::monitor::StepResult;
+use crate::resort::LastResorts;
 
 /// How an episode ended.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Ending {
     /// The goal was seen to hold.
     Solved,
@@ -35,7 +39,7 @@ impl Ending {
 }
 
 /// A step that failed.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Failure {
     /// The proposal's number, from 1.
     pub proposal: u64,
@@ -51,12 +55,12 @@ pub struct Failure {
     pub reason: Option<String>,
     /// Whether it rests on an imagined action.
     pub imagined: bool,
-    /// What was excluded therefore.
-    pub excluded: Vec<Exclusion>,
+    /// What is to blame, as far as was known then, and excluded therefore.
+    pub suspects: Vec<Suspect>,
 }
 
 /// The account of an episode.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Account {
     /// How it ended.
     pub ending: Ending,
@@ -65,6 +69,7 @@ pub struct Account {
     /// Actions executed, retries included.
     pub actions: u64,
     /// The plan that worked (paper: |p| is its length); for a goal that held already the empty one.
+    #[serde(skip)]
     pub plan: Option<Plan>,
     /// What failed, in order.
     pub failures: Vec<Failure>,
@@ -72,13 +77,25 @@ pub struct Account {
     pub expansions: u64,
     /// Ground actions of the largest search.
     pub ground_actions: u64,
-    /// Whether exclusions were lifted, since nothing else was left.
-    pub lifted: bool,
-    /// Whether actions were used although some of what they add held already.
-    pub relaxed: bool,
+    /// What was given up where nothing else was left.
+    pub resorts: LastResorts,
 }
 
 impl Account {
+    /// The account of an episode in which nothing has happened yet.
+    pub(crate) fn begun() -> Self {
+        Self {
+            ending: Ending::Stopped(Stop::Cancelled),
+            proposals: 0,
+            actions: 0,
+            plan: None,
+            failures: Vec::new(),
+            expansions: 0,
+            ground_actions: 0,
+            resorts: LastResorts::default(),
+        }
+    }
+
     /// Whether the goal was seen to hold.
     pub fn solved(&self) -> bool {
         self.ending == Ending::Solved

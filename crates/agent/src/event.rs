@@ -1,24 +1,28 @@
 //! What happens during an episode, for whoever watches.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use typelift_model::{GroundAtom, GroundCall, Hierarchy, Plan, Symbol, describe_replacements};
 
+use crate::blame::Suspect;
 use crate::monitor::StepResult;
+use crate::resort::Resort;
 
 /// One step of a plan, in plain words.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct StepSummary {
     /// The action schema.
     pub action: Symbol,
     /// What the environment is told.
     pub call: GroundCall,
     /// What was put in place of what, if the step is imagined.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub imagined: Option<String>,
 }
 
 /// A plan, in plain words.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PlanSummary {
     /// The steps.
     pub steps: Vec<StepSummary>,
@@ -88,13 +92,11 @@ pub enum Event {
         /// The action.
         call: GroundCall,
     },
-    /// An object is excluded.
+    /// Something is to blame, and excluded.
     Excluded {
-        /// The object.
-        object: Symbol,
-        /// From actions of this name; from all if absent.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        call: Option<Symbol>,
+        /// What.
+        #[serde(flatten)]
+        suspect: Suspect,
         /// Why.
         reason: String,
     },
@@ -105,10 +107,16 @@ pub enum Event {
         /// The precondition that no longer holds.
         missing: String,
     },
-    /// Exclusions were lifted since nothing else was left; ground actions that failed stay banned.
-    Lifted,
-    /// Actions are used although some of what they add holds already, since nothing else was left.
-    Relaxed,
+    /// Something is given up since nothing else was left; ground actions that failed stay banned.
+    LastResort {
+        /// What.
+        resort: Resort,
+    },
+    /// Another plan was asked for, and there is none, or no more may be proposed.
+    NoOtherPlan {
+        /// The number of the proposal that stands.
+        proposal: u64,
+    },
     /// It is over.
     Ended {
         /// Whether the goal was seen to hold.

@@ -1,27 +1,42 @@
 //! Acting with a learned model: propose a plan, execute it step by step, compare what happened with what was
 //! expected, exclude what failed, imagine again, replan, remember.
 //!
-//! An [`Episode`] is a state machine without a thread, a clock or a world of its own: whoever drives it feeds it an
-//! [`Input`] and does what the [`Command`] says. A page, a notebook or a robot's own loop can drive it; [`run`] drives
+//! An [`Episode`] is a state machine without a thread, a clock or a world of its own: whoever drives it does what the
+//! [`Command`] says and reports with an [`Input`], which names the command that it answers. A page, a notebook or a robot's own loop can drive it; [`run`] drives
 //! it over a [`World`](typelift_world::World).
 #![deny(missing_docs)]
 
 mod account;
+mod acting;
+mod blame;
+mod deed;
 mod episode;
 mod event;
+mod execution;
 mod experience;
 mod monitor;
+mod objection;
 mod options;
+mod planning;
 mod propose;
+mod resort;
 mod run;
+mod saved;
 mod turn;
+mod wire;
 
 pub use account::{Account, Ending, Failure};
-pub use episode::Episode;
+pub use blame::{Condition, Suspect, suspects};
+pub use deed::{Deed, Failed, Participant, Success};
+pub use episode::{Episode, EpisodeError};
 pub use event::{Event, Observer, PlanSummary, StepSummary};
 pub use experience::{Experience, Remembered};
 pub use monitor::{StepResult, compare};
+pub use objection::Objection;
 pub use options::Options;
 pub use propose::{Proposal, ProposeError, propose};
+pub use resort::{Counted, LastResort, LastResorts, Resort, ResortState};
 pub use run::{Confirmation, RunError, run};
-pub use turn::{Command, Input};
+pub use saved::{EPISODE_FORMAT, RestoreError};
+pub use turn::{Command, CommandId, Input};
+pub use wire::WireCommand;

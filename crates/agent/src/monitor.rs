@@ -1,6 +1,6 @@
 //! The effect check: what an action changed against what it was expected to change.
 
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 use typelift_model::{GroundAction, GroundAtom, State};
 use typelift_world::Verdict;
 
@@ -44,6 +44,24 @@ impl StepResult {
 impl Serialize for StepResult {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.serialize_str(self.word())
+    }
+}
+
+impl<'de> Deserialize<'de> for StepResult {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let word = String::deserialize(deserializer)?;
+        let verdicts = [
+            Verdict::AsExpected,
+            Verdict::Nothing,
+            Verdict::Partly,
+            Verdict::Otherwise,
+            Verdict::Refused,
+            Verdict::TimedOut,
+        ];
+        let mut results = verdicts.into_iter().map(Self::Tried).chain([Self::Rejected]);
+        results
+            .find(|result| result.word() == word)
+            .ok_or_else(|| de::Error::custom(format!("no result is called `{word}`")))
     }
 }
 

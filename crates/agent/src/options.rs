@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use typelift_model::Symbol;
 use typelift_plan::ExternalPlanner;
 
 /// How an episode goes about its task.
@@ -21,6 +22,8 @@ pub struct Options {
     pub retries: Option<u32>,
     /// Plans proposed at most.
     pub max_proposals: u64,
+    /// The instance of the world that names belong to, whatever the world says.
+    pub instance: Option<Symbol>,
 }
 
 impl Default for Options {
@@ -33,6 +36,7 @@ impl Default for Options {
             restart: false,
             retries: None,
             max_proposals: 12,
+            instance: None,
         }
     }
 }

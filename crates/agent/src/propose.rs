@@ -1,5 +1,7 @@
 //! One proposal: imagine if allowed, plan, and have the plan checked.
 
+use std::sync::Arc;
+
 use thiserror::Error;
 use typelift_check::{Invalid, check};
 use typelift_imagine::{Imagination, imagine_from};
@@ -12,7 +14,7 @@ use crate::options::Options;
 #[derive(Debug)]
 pub struct Proposal {
     /// The model that was planned with: imagined actions added, strict if asked for.
-    pub model: ActionModel,
+    pub model: Arc<ActionModel>,
     /// What was imagined.
     pub imagination: Imagination,
     /// How often what can be reached was worked out before planning began.
@@ -126,22 +128,7 @@ pub fn propose(
     options: &Options,
     budget: &Budget,
 ) -> Result<Proposal, ProposeError> {
-    let applied = |model: ActionModel| if options.strict { strict(&model) } else { model };
-    let mut planned_with = applied(Imagination::default().added_to(model));
-    let mut imagination = Imagination::default();
-    let (mut reachable, mut groundings) = (None, 0);
-    if let Some(imagining) = &options.imagine {
-        let reached = Reachable::with_few_objects(&planned_with, task, restrictions, budget)?;
-        imagination = imagine_from(&reached, model, task, restrictions, imagining, budget)?;
-        if imagination.actions.is_empty() {
-            // Planning starts where imagination ended.
-            reachable = Some(reached);
-        } else {
-            groundings = reached.computed();
-            planned_with = applied(imagination.added_to(model));
-        }
-    }
-    let model = planned_with;
+    let Widened { model, imagination, reachable, groundings } = widened(model, task, restrictions, options, budget)?;
     let (searched, outcome) = match &options.planner {
         None => {
             let mut planner = Planner::starting_from(reachable, &model, task, restrictions, &options.plan, budget)?;
@@ -157,4 +144,41 @@ pub fn propose(
     let proposal = Proposal { model, imagination, groundings, searched, outcome };
     proposal.checked(proposal.outcome.clone())?;
     Ok(proposal)
+}
+
+/// A model to plan a task with.
+pub(crate) struct Widened {
+    /// Imagined actions added if that is allowed, strict if asked for.
+    pub(crate) model: Arc<ActionModel>,
+    imagination: Imagination,
+    /// What can be reached with this model, if that is known: planning starts where imagination ended.
+    reachable: Option<Reachable>,
+    /// How often what can be reached was worked out with another model.
+    groundings: u64,
+}
+
+/// The model to plan a task with.
+///
+/// # Errors
+/// [`Stop`] if the budget ends it.
+pub(crate) fn widened(
+    model: &ActionModel,
+    task: &Task,
+    restrictions: &Restrictions,
+    options: &Options,
+    budget: &Budget,
+) -> Result<Widened, Stop> {
+    let applied = |model: ActionModel| Arc::new(if options.strict { strict(&model) } else { model });
+    let nothing = Imagination::default();
+    let own = applied(nothing.added_to(model));
+    let Some(imagining) = &options.imagine else {
+        return Ok(Widened { model: own, imagination: nothing, reachable: None, groundings: 0 });
+    };
+    let reached = Reachable::with_few_objects(&own, task, restrictions, budget)?;
+    let imagination = imagine_from(&reached, model, task, restrictions, imagining, budget)?;
+    if imagination.actions.is_empty() {
+        return Ok(Widened { model: own, imagination, reachable: Some(reached), groundings: 0 });
+    }
+    let model = applied(imagination.added_to(model));
+    Ok(Widened { model, imagination, reachable: None, groundings: reached.computed() })
 }

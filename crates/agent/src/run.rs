@@ -2,12 +2,12 @@
 
 use thiserror::Error;
 use typelift_model::Plan;
-use typelift_world::{ParseError, Parser, Reset, Scene, World, WorldError};
+use typelift_world::{ParseError, Parser, Reset, Scene, World, WorldError, instance_of};
 
 use crate::account::Account;
-use crate::episode::Episode;
+use crate::episode::{Episode, EpisodeError};
 use crate::event::Observer;
-use crate::propose::ProposeError;
+use crate::objection::Objection;
 use crate::turn::{Command, Input};
 
 /// What whoever is asked says of a plan.
@@ -19,9 +19,13 @@ pub enum Confirmation {
     Reject {
         /// The step.
         step: usize,
-        /// Why.
+        /// What speaks against it.
+        objection: Option<Objection>,
+        /// Why, in words.
         reason: String,
     },
+    /// Propose another one.
+    AnotherPlan,
     /// End the episode.
     Stop,
 }
@@ -35,9 +39,9 @@ pub enum RunError {
     /// The environment's state is not one.
     #[error("the environment's state cannot be read: {0}")]
     State(#[from] ParseError),
-    /// The planner erred.
+    /// The goal is none in this world, or the planner erred.
     #[error(transparent)]
-    Propose(#[from] ProposeError),
+    Episode(#[from] EpisodeError),
 }
 
 /// Drives an episode over a world; `confirm` is asked before each plan is executed.
@@ -56,21 +60,28 @@ pub fn run(
     let mut input = Input::Started;
     loop {
         input = match episode.step(input, observer)? {
-            Command::Reset if world.can_reset() => Input::Observation(parse(&world.reset(reset)?)?),
-            // What cannot be set back is taken as it is.
-            Command::Reset | Command::Observe => Input::Observation(parse(&world.observe()?)?),
-            Command::Propose(plan) => match confirm(&plan) {
-                Confirmation::Approve => Input::Approve,
-                Confirmation::Reject { step, reason } => Input::Reject { step, reason },
+            Command::Reset { id } => {
+                // What cannot be set back is taken as it is.
+                let scene = if world.can_reset() { world.reset(reset)? } else { world.observe()? };
+                Input::Reset { id, state: parse(&scene)?, instance: Some(instance_of(world, reset)) }
+            }
+            // Actions are answered at once, so none is ever under way.
+            Command::Observe { id } | Command::Await { id, .. } => {
+                Input::Observation { id, state: parse(&world.observe()?)? }
+            }
+            Command::Propose { id, plan } => match confirm(&plan) {
+                Confirmation::Approve => Input::Approve { id },
+                Confirmation::Reject { step, objection, reason } => Input::Reject { id, step, objection, reason },
+                Confirmation::AnotherPlan => Input::AnotherPlan { id },
                 Confirmation::Stop => Input::Stop,
             },
-            Command::Act(call) => {
+            Command::Act { id, call } => {
                 let acted = world.act(&call)?;
                 let state = parse(&acted.scene)?;
                 match acted.reason.filter(|_| !acted.executed) {
-                    Some(reason) => Input::Refused { reason, state },
-                    None if !acted.executed => Input::Refused { reason: "not executed".to_owned(), state },
-                    None => Input::Observation(state),
+                    Some(reason) => Input::Refused { id, reason, state },
+                    None if !acted.executed => Input::Refused { id, reason: "not executed".to_owned(), state },
+                    None => Input::Observation { id, state },
                 }
             }
             Command::Done(account) => return Ok(*account),

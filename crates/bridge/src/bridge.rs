@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::sync::mpsc::RecvTimeoutError;
 use std::time::{Duration, Instant};
 
-use typelift_model::GroundCall;
+use typelift_model::{GroundCall, Symbol};
 use typelift_world::{Acted, Answer, LINE_LIMIT, PROTOCOL, Request, RequestBody, Reset, Scene, World, WorldError};
 
 use crate::answer::{Unreadable, read_answer};
@@ -29,6 +29,7 @@ const GRACE: Duration = Duration::from_millis(300);
 pub struct Bridge {
     name: String,
     can_reset: bool,
+    instance: Option<Symbol>,
     options: Options,
     process: Arc<Process>,
     conversation: Conversation,
@@ -93,6 +94,7 @@ impl Bridge {
         let mut bridge = Self {
             name: shorten(command_line),
             can_reset: false,
+            instance: None,
             options,
             process: Arc::new(process),
             conversation,
@@ -122,6 +124,7 @@ impl Bridge {
         let name = line.answer.name.as_ref().ok_or_else(|| missing("name"))?;
         self.can_reset = line.answer.reset.ok_or_else(|| missing("reset"))?;
         self.name.clone_from(name);
+        self.instance = line.answer.instance;
         self.conversation.stderr.rename(name);
         Ok(())
     }
@@ -271,12 +274,20 @@ impl World for Bridge {
         self.can_reset
     }
 
+    fn instance(&self) -> Option<Symbol> {
+        self.instance.clone()
+    }
+
     fn reset(&mut self, reset: &Reset) -> Result<Scene, WorldError> {
         if !self.can_reset {
             return Err(self.error(Failure::NoReset, None, None).into());
         }
         let body = RequestBody::Reset { seed: reset.seed, scenario: reset.scenario.clone() };
-        Ok(self.ask_for_state(body)?.0)
+        let (scene, answer) = self.ask_for_state(body)?;
+        if answer.instance.is_some() {
+            self.instance = answer.instance;
+        }
+        Ok(scene)
     }
 
     fn observe(&mut self) -> Result<Scene, WorldError> {

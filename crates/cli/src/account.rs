@@ -1,9 +1,8 @@
 //! The account of a task: for people, and as JSON.
 
 use serde::Serialize;
-use typelift::agent::{Account, Ending, Experience};
+use typelift::agent::{Account, Ending, Episode, Suspect};
 use typelift::model::{GroundCall, Plan};
-use typelift::plan::Exclusion;
 
 use crate::plan_text::plan_size;
 use crate::style::{BAD, DIM, GOOD, HEAD, count};
@@ -52,8 +51,8 @@ struct FailureReport {
 
 #[derive(Serialize)]
 struct ExclusionReport {
-    object: String,
-    from: Option<String>,
+    #[serde(flatten)]
+    suspect: Suspect,
     reason: String,
     count: u64,
 }
@@ -67,13 +66,6 @@ fn why_not(ending: &Ending) -> Option<String> {
         Ending::ProposalLimit(n) => format!("gave up after {}", count(*n, "proposal")),
         Ending::Stopped(stop) => stop.to_string(),
     })
-}
-
-fn exclusion_text(exclusion: &Exclusion) -> String {
-    match &exclusion.call {
-        None => exclusion.object.to_string(),
-        Some(call) => format!("{} from {call}", exclusion.object),
-    }
 }
 
 /// The account of a task, for people.
@@ -101,14 +93,14 @@ pub(crate) fn summary(name: &str, account: &Account, planning_ms: u128) -> Strin
             failure.call,
             failure.result.phrase()
         );
-        for exclusion in &failure.excluded {
-            text += &format!("    excluded {}\n", exclusion_text(exclusion));
+        for suspect in &failure.suspects {
+            text += &format!("    excluded {suspect}\n");
         }
     }
-    if account.lifted {
+    if account.resorts.lifted() {
         text += "  exclusions were lifted, since nothing else was left\n";
     }
-    if account.relaxed {
+    if account.resorts.relaxed() {
         text += "  actions were used although some of their effects held already, since nothing else was left\n";
     }
     for line in why_not(&account.ending).iter().flat_map(|why| why.lines()) {
@@ -117,7 +109,7 @@ pub(crate) fn summary(name: &str, account: &Account, planning_ms: u128) -> Strin
     text
 }
 
-pub(crate) fn report<'a>(name: &'a str, account: &Account, experience: &Experience, seconds: f64) -> TaskReport<'a> {
+pub(crate) fn report<'a>(name: &'a str, account: &Account, episode: &Episode, seconds: f64) -> TaskReport<'a> {
     let plan = account.plan.as_ref().filter(|_| account.solved());
     TaskReport {
         task: name,
@@ -144,14 +136,11 @@ pub(crate) fn report<'a>(name: &'a str, account: &Account, experience: &Experien
                 imagined: failure.imagined,
             })
             .collect(),
-        excluded: experience
-            .exclusions()
-            .map(|(exclusion, remembered)| ExclusionReport {
-                object: exclusion.object.to_string(),
-                from: exclusion.call.as_ref().map(ToString::to_string),
-                reason: remembered.reason.clone(),
-                count: remembered.count,
-            })
+        excluded: episode
+            .experience()
+            .suspects(episode.instance())
+            .into_iter()
+            .map(|(suspect, why)| ExclusionReport { suspect, reason: why.reason, count: why.count })
             .collect(),
     }
 }

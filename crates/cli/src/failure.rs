@@ -3,7 +3,7 @@
 use std::fmt::Display;
 use std::io;
 
-use typelift::agent::{ProposeError, RunError};
+use typelift::agent::{EpisodeError, ProposeError, RunError};
 use typelift::model::{ModelFileError, NameCollision, Stop, Symbol, nearest, printable};
 use typelift::pddl::ExportError;
 use typelift::plan::ExternalFailure;
@@ -129,7 +129,11 @@ impl From<RunError> for Failure {
             RunError::World(error) => error.into(),
             RunError::State(error) => Self::new(Exit::Environment, format!("the environment's state cannot be read: {error}"))
                 .with_hint("A type that the model does not know can be added with --types; an attribute can be ignored when learning, with --ignore."),
-            RunError::Propose(error) => error.into(),
+            RunError::Episode(EpisodeError::Propose(error)) => error.into(),
+            RunError::Episode(EpisodeError::Goal(error)) => {
+                let hint = error.hint();
+                Self { hint, ..Self::bad_input(error) }
+            }
         }
     }
 }

@@ -5,13 +5,13 @@
 
 mod account;
 mod columns;
+mod confirm;
 mod demo;
 mod describe;
 mod exit;
 mod export;
 mod failure;
 mod files;
-mod goal_check;
 mod kitchen;
 mod lab;
 mod learn;

@@ -72,15 +72,12 @@ pub(crate) fn told(event: &Event) -> Option<String> {
             }
         }
         Event::Retried { .. } => format!("       {DIM}again{DIM:#}"),
-        Event::Excluded { object, call: None, .. } => format!("       {WARNING}excluded{WARNING:#}: {object}"),
-        Event::Excluded { object, call: Some(call), .. } => {
-            format!("       {WARNING}excluded{WARNING:#}: {object} from {call}")
-        }
+        Event::Excluded { suspect, .. } => format!("       {WARNING}excluded{WARNING:#}: {suspect}"),
         Event::Drifted { missing, .. } => match missing.strip_prefix("not ") {
             Some(atom) => format!("       the world changed by itself: {atom} holds now"),
             None => format!("       the world changed by itself: {missing} no longer holds"),
         },
-        Event::Lifted => "       nothing left to try: exclusions are lifted".to_owned(),
-        Event::Relaxed => "       nothing left to try: effects may hold already".to_owned(),
+        Event::LastResort { resort } => format!("       nothing left to try: {}", resort.phrase()),
+        Event::NoOtherPlan { .. } => "       there is no other plan".to_owned(),
     })
 }

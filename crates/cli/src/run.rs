@@ -1,28 +1,25 @@
 //! `typelift run`.
 
 use std::fs::File;
-use std::io::{BufWriter, IsTerminal, Write};
+use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::mpsc::{self, RecvTimeoutError};
-use std::thread;
 use std::time::Duration;
 
 use clap::ValueEnum;
-use typelift::agent::{Confirmation, Ending, Episode, Experience, Options, run};
+use typelift::agent::{Ending, Episode, EpisodeError, Experience, Options, RunError, run};
 use typelift::bridge::Bridge;
-use typelift::model::{ActionModel, Plan, State, Stop, Task};
+use typelift::model::{Plan, State, Stop, Symbol, Task};
 use typelift::world::{FileError, Parser, Reset, Scene, TaskFile, World, WorldError};
 use typelift_kitchen::Kitchen;
 
 use crate::account::{broken_off, report, summary};
+use crate::confirm::{Which, confirm};
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::{TaskInput, keep_inputs, task_name};
-use crate::goal_check::GoalCheck;
 use crate::limits::{Clock, Interrupt};
 use crate::narrate::Narrator;
-use crate::plan_text::numbered_steps;
 use crate::planning_options::PlanningOptions;
 use crate::quantities::{parse_duration, parse_whole};
 use crate::style::HEAD;
@@ -30,8 +27,8 @@ use crate::style::HEAD;
 /// Expansions of one search, unless the user says otherwise: an agent that acts must not think for ever.
 const EXPANSIONS: u64 = 200_000;
 
-/// How often it is looked whether Ctrl-C was pressed while an answer is waited for.
-const ANSWER_INTERVAL: Duration = Duration::from_millis(50);
+/// How many ways to a state are kept where somebody may ask for another plan.
+const PLANS_TO_CHOOSE_FROM: usize = 4;
 
 /// Carry out tasks in an environment
 #[derive(Debug, clap::Args)]
@@ -67,6 +64,10 @@ pub(crate) struct Run {
     /// The seed that the environment is reset with, instead of the task's
     #[arg(long, value_name = "N", value_parser = parse_whole, allow_negative_numbers = true)]
     seed: Option<u64>,
+    /// What the environment stands for, as the name of a room: what was found broken in one of this name, in an earlier
+    /// task, is not used in it again [default: as the environment says, or one for each scenario and seed]
+    #[arg(long, value_name = "NAME")]
+    instance: Option<String>,
     /// Ask before a plan is executed: only one that rests on imagined actions, or any [default: imagined]
     #[arg(long, value_name = "WHICH", num_args = 0..=1, require_equals = true, default_missing_value = "imagined")]
     confirm: Option<Which>,
@@ -101,14 +102,6 @@ fn parse_timeout(text: &str) -> Result<(Operation, Duration), String> {
     let operation = Operation::from_str(operation, true)
         .map_err(|_| format!("there is no `{operation}`; there are hello, reset, observe, act and close"))?;
     Ok((operation, parse_duration(time)?))
-}
-
-/// Which plans are to be confirmed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Which {
-    // Those with imagined steps.
-    Imagined,
-    All,
 }
 
 impl Run {
@@ -152,17 +145,13 @@ impl Run {
                 Episode::new(Arc::clone(&model), task.goal.clone(), options.clone(), experience.clone(), budget)
                     .with_values(task.values);
             let mut parser = Parser::new(model.hierarchy.clone(), parse.clone());
-            let goal = task.goal.literals().map(|(atom, _)| atom.clone()).collect();
-            let mut checked = GoalCheck { world: &mut *world, model: &model, parse: &parse, goal, error: None };
-            let mut confirm = |plan: &Plan| self.confirm(plan, &model, &interrupt);
-            let ran = run(&mut episode, &mut checked, &reset, &mut parser, &mut confirm, &mut narrator);
-            if let Some(error) = checked.error {
-                return Err(error.in_file(path, &parser).into());
-            }
+            let mut confirm = |plan: &Plan| confirm(self.confirm, plan, &model, &interrupt);
+            let ran = run(&mut episode, &mut *world, &reset, &mut parser, &mut confirm, &mut narrator);
             if interrupt.is_set() && ran.is_err() {
                 return Ok(Exit::Interrupted);
             }
-            if let (true, Err(error)) = (self.planning.json, &ran) {
+            let is_bad_input = matches!(ran, Err(RunError::Episode(EpisodeError::Goal(_))));
+            if let (true, false, Err(error)) = (self.planning.json, is_bad_input, &ran) {
                 writeln!(out, "{}", broken_off(&name, &error.to_string()))?;
             }
             let account = ran.map_err(|error| Failure::from(error).in_file(path))?;
@@ -172,7 +161,7 @@ impl Run {
             experience = episode.experience().clone();
             all_solved &= account.solved();
             if self.planning.json {
-                let report = report(&name, &account, &experience, narrator.planning.as_secs_f64());
+                let report = report(&name, &account, &episode, narrator.planning.as_secs_f64());
                 writeln!(out, "{}", serde_json::to_string(&report).unwrap_or_default())?;
             } else {
                 write!(out, "{}", summary(&name, &account, narrator.planning.as_millis()))?;
@@ -211,12 +200,17 @@ impl Run {
     }
 
     fn options(&self, is_given: bool) -> Result<Options, Failure> {
-        Ok(Options {
+        let mut options = Options {
             restart: self.restart,
             retries: self.retries,
             max_proposals: self.max_proposals,
+            instance: self.instance.as_deref().map(Symbol::new),
             ..self.planning.agent_options(is_given)?
-        })
+        };
+        if self.confirm.is_some() {
+            options.plan.plans = PLANS_TO_CHOOSE_FROM;
+        }
+        Ok(options)
     }
 
     /// How the environment is set up: as the task says, or, in the kitchen, from the state that it gives.
@@ -232,63 +226,5 @@ impl Run {
     fn reset_to_problem(&self, path: &Path) -> Reset {
         let scenario = serde_json::json!({ "problem": path.display().to_string() });
         Reset { seed: self.seed.unwrap_or(0), scenario: Some(scenario) }
-    }
-
-    /// Asks whoever is at the terminal.
-    fn confirm(&self, plan: &Plan, model: &ActionModel, interrupt: &Interrupt) -> Confirmation {
-        let imagined = plan.steps.iter().position(|step| step.imagined.is_some());
-        let ask = match self.confirm {
-            None => false,
-            Some(Which::Imagined) => imagined.is_some(),
-            Some(Which::All) => true,
-        };
-        if !ask {
-            return Confirmation::Approve;
-        }
-        anstream::eprint!("{}", numbered_steps(plan, &model.hierarchy));
-        loop {
-            anstream::eprint!("execute? [y]es, [n]o, not step N (n N), [s]top: ");
-            let Some(answer) = answer(interrupt) else {
-                anstream::eprintln!("no answer: stopped");
-                return Confirmation::Stop;
-            };
-            if !std::io::stdin().is_terminal() {
-                anstream::eprintln!("{}", answer.trim());
-            }
-            let mut words = answer.split_whitespace();
-            match (words.next(), words.next().map(str::parse::<usize>)) {
-                (Some("y" | "yes"), None) => return Confirmation::Approve,
-                (Some("s" | "stop"), None) => return Confirmation::Stop,
-                (Some("n" | "no"), step) => {
-                    let step = step.unwrap_or(Ok(imagined.unwrap_or(0) + 1));
-                    if let Ok(step @ 1..) = step
-                        && step <= plan.len()
-                    {
-                        return Confirmation::Reject { step, reason: "rejected by a person".to_owned() };
-                    }
-                }
-                _ => {}
-            }
-        }
-    }
-}
-
-/// A line from whoever is at the terminal. None at its end, or as soon as Ctrl-C is pressed: a line is waited for in
-/// another thread, since nothing else ends that.
-fn answer(interrupt: &Interrupt) -> Option<String> {
-    let (sender, receiver) = mpsc::channel();
-    thread::spawn(move || {
-        let mut line = String::new();
-        let read = std::io::stdin().read_line(&mut line);
-        // Nobody waits any more after Ctrl-C.
-        let _ = sender.send(read.is_ok_and(|bytes| bytes > 0).then_some(line));
-    });
-    loop {
-        match receiver.recv_timeout(ANSWER_INTERVAL) {
-            _ if interrupt.is_set() => return None,
-            Err(RecvTimeoutError::Timeout) => {}
-            Err(RecvTimeoutError::Disconnected) => return None,
-            Ok(line) => return line,
-        }
     }
 }

@@ -24,6 +24,11 @@ pub(crate) fn create_imagined_action<'a>(context: &Context<'_>, potential: &Pote
     let Potential { schema, binding } = potential;
     let hierarchy = &context.model.hierarchy;
     let bound: BTreeSet<&Symbol> = binding.iter().copied().flatten().collect();
+    let types_bound: Vec<Option<TypeId>> =
+        binding.iter().map(|object| context.task.init.objects.get((*object)?).copied()).collect();
+    if !context.restrictions.allows_types(schema, &types_bound, hierarchy) {
+        return None;
+    }
     let mut types = Vec::with_capacity(binding.len());
     for (parameter, object) in schema.parameters.iter().zip(binding) {
         types.push(match object {

@@ -68,10 +68,14 @@ struct Context<'a> {
 impl Context<'_> {
     /// The objects that nothing speaks against, but for those in `bound`, with their types. An object excluded from
     /// one kind of action does not count for another either: what cannot be loaded need not be started, and the
-    /// action that would start it has to be imagined for something else.
-    fn available(&self, bound: &BTreeSet<&Symbol>) -> impl Iterator<Item = (&Symbol, TypeId)> {
+    /// action that would start it has to be imagined for something else. The same goes for a type, where it may not
+    /// meet the type of something bound.
+    fn available<'a>(&'a self, bound: &BTreeSet<&Symbol>) -> impl Iterator<Item = (&'a Symbol, TypeId)> {
+        let types: Vec<TypeId> = bound.iter().filter_map(|name| self.task.init.objects.get(*name)).copied().collect();
         let objects = self.task.init.objects.iter().map(|(name, ty)| (name, *ty));
-        objects.filter(|(name, _)| !bound.contains(name) && !self.restrictions.distrusts(name))
+        objects.filter(move |(name, ty)| {
+            !bound.contains(name) && !self.restrictions.distrusts(name, *ty, &types, &self.model.hierarchy)
+        })
     }
 }
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use typelift::agent::{Account, Confirmation, Ending, Episode, Event, Experience, Observer, Options, RunError, run};
-use typelift::model::{ActionModel, Budget, ParseConfig, Plan, Stop};
+use typelift::model::{ActionModel, Budget, GroundAtom, ParseConfig, Plan, Stop, Symbol};
 use typelift::world::{Parser, Reset, World};
 use typelift_kitchen::{Kitchen, KitchenTask};
 
@@ -15,6 +15,8 @@ pub struct Attempt {
     pub account: Account,
     /// What was experienced, in this task and before.
     pub experience: Experience,
+    /// The instance of the kitchen.
+    pub instance: Symbol,
     /// The time spent on planning, imagination included.
     pub planning: Duration,
 }
@@ -63,12 +65,25 @@ pub fn attempt_in(
 ) -> Result<Attempt, RunError> {
     let Setting { task, seed, experience } = setting;
     let mut parser = Parser::new(model.hierarchy.clone(), ParseConfig::default());
-    let mut episode = Episode::new(Arc::clone(model), task.goal.clone(), options.clone(), experience, budget);
+    let model = knowing(model, &task.goal);
+    let mut episode = Episode::new(Arc::clone(&model), task.goal.clone(), options.clone(), experience, budget);
     let reset = Reset { seed, scenario: Some(task.scenario.clone()) };
     let mut stopwatch = Stopwatch::default();
     let mut approve = |_: &Plan| Confirmation::Approve;
     let account = run(&mut episode, world, &reset, &mut parser, &mut approve, &mut stopwatch)?;
-    Ok(Attempt { account, experience: episode.experience().clone(), planning: stopwatch.total })
+    let (experience, instance) = (episode.experience().clone(), episode.instance().clone());
+    Ok(Attempt { account, experience, instance, planning: stopwatch.total })
+}
+
+/// The model with the predicates of the goal: from few demonstrations it may not know them, and that there is no plan
+/// then is what is measured.
+fn knowing(model: &Arc<ActionModel>, goal: &[GroundAtom]) -> Arc<ActionModel> {
+    if goal.iter().all(|atom| model.predicates.contains_key(&atom.predicate)) {
+        return Arc::clone(model);
+    }
+    let mut knowing = ActionModel::clone(model);
+    knowing.predicates.extend(goal.iter().map(|atom| (atom.predicate.clone(), atom.arity())));
+    Arc::new(knowing)
 }
 
 /// Adds up the time between the beginning and the end of planning.

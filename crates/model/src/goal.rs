@@ -1,6 +1,11 @@
 //! Goals.
 
-use crate::{GroundAtom, State, Symbol};
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::{GroundAtom, State, Symbol, nearest};
 
 /// What is to be achieved: the atoms that must all hold in the end, and those of which none may.
 ///
@@ -14,15 +19,87 @@ use crate::{GroundAtom, State, Symbol};
 /// assert!(goal.holds_in(&state));
 /// # Ok::<(), typelift_model::AtomTextError>(())
 /// ```
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Goal {
     /// The atoms that must all hold, in the order in which they were asked for.
     pub required: Vec<GroundAtom>,
     /// The atoms of which none may hold. Goals for learned models have none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub forbidden: Vec<GroundAtom>,
 }
 
+/// Why a goal is not one for this model and state.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum GoalError {
+    /// A predicate that the model does not know.
+    #[error("in the goal {atom}: the model has no predicate `{}`", .atom.predicate)]
+    UnknownPredicate {
+        /// The goal atom.
+        atom: GroundAtom,
+        /// The predicate that may have been meant.
+        near: Option<Symbol>,
+    },
+    /// A predicate with another number of arguments.
+    #[error("in the goal {atom}: `{}` takes {expected} argument{}, not {}", .atom.predicate, if *.expected == 1 { "" } else { "s" }, .atom.arity())]
+    Arity {
+        /// The goal atom.
+        atom: GroundAtom,
+        /// The predicate's number of arguments.
+        expected: usize,
+    },
+    /// An object that the state does not have.
+    #[error("in the goal {atom}: there is no `{object}` in the state")]
+    UnknownObject {
+        /// The goal atom.
+        atom: GroundAtom,
+        /// The object.
+        object: Symbol,
+        /// The object that may have been meant.
+        near: Option<Symbol>,
+    },
+}
+
+impl GoalError {
+    /// What to do about it, if that is known.
+    pub fn hint(&self) -> Option<String> {
+        match self {
+            Self::UnknownPredicate { near, .. } | Self::UnknownObject { near, .. } => {
+                near.as_ref().map(|name| format!("Did you mean `{name}`?"))
+            }
+            Self::Arity { atom, expected } => {
+                let args: Vec<String> = (1..=*expected).map(|i| format!("x{i}")).collect();
+                Some(format!("Write `{}({})`, with the names of entities.", atom.predicate, args.join(",")))
+            }
+        }
+    }
+}
+
 impl Goal {
+    /// Checks that every atom is over known predicates, given with their numbers of arguments, and over objects of the
+    /// state.
+    ///
+    /// # Errors
+    /// [`GoalError`] for the first that is not.
+    pub fn check(&self, state: &State, predicates: &BTreeMap<Symbol, usize>) -> Result<(), GoalError> {
+        for (atom, _) in self.literals() {
+            match predicates.get(&atom.predicate) {
+                Some(&expected) if expected != atom.arity() => {
+                    return Err(GoalError::Arity { atom: atom.clone(), expected });
+                }
+                Some(_) => {}
+                None => {
+                    let near = nearest(atom.predicate.as_str(), predicates.keys()).cloned();
+                    return Err(GoalError::UnknownPredicate { atom: atom.clone(), near });
+                }
+            }
+            if let Some(object) = atom.args.iter().find(|arg| !state.objects.contains_key(*arg)) {
+                let near = nearest(object.as_str(), state.objects.keys()).cloned();
+                return Err(GoalError::UnknownObject { atom: atom.clone(), object: object.clone(), near });
+            }
+        }
+        Ok(())
+    }
+
     /// Whether it holds in a state, which holds all that follows from it.
     pub fn holds_in(&self, state: &State) -> bool {
         self.literals().all(|(atom, positive)| state.holds(atom) == positive)

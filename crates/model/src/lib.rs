@@ -50,7 +50,7 @@ pub use evidence::{
     Cluster, ClusterKey, Evidence, MOST_PARAMETERS, NegativeKey, PRE_STATE_BOUND, PreStates, Unexplained,
     WITNESS_BOUND, Witness,
 };
-pub use goal::Goal;
+pub use goal::{Goal, GoalError};
 pub use hierarchy::{Hierarchy, HierarchyError, ROOT, TypeId};
 pub use instantiate::{GroundAction, InstantiateError};
 pub use json_message::json_message;

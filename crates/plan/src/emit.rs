@@ -28,7 +28,7 @@ impl Join<'_> {
         let (Source::Action(index, _) | Source::Axiom(index)) = schema.source;
         let op = RawOp { schema: index, objects, preconditions, negative, effects };
         if let Source::Action(_, schema) = schema.source
-            && self.is_banned(schema, &op)
+            && self.is_restricted(schema, &op)
         {
             return Ok(());
         }
@@ -129,7 +129,13 @@ impl Join<'_> {
             && decided.all(|pattern| self.initial_fact(pattern, binding).is_some())
     }
 
-    fn is_banned(&self, schema: &ActionSchema, op: &RawOp) -> bool {
+    fn is_restricted(&self, schema: &ActionSchema, op: &RawOp) -> bool {
+        if !self.restrictions.types.is_empty() {
+            let types: Vec<_> = op.objects.iter().map(|&object| Some(self.facts.objects[object.index()].1)).collect();
+            if !self.restrictions.allows_types(schema, &types, self.hierarchy) {
+                return true;
+            }
+        }
         if self.restrictions.banned.is_empty() {
             return false;
         }

@@ -2,13 +2,15 @@
 
 use std::fmt;
 
-use typelift_model::{ActionModel, ActionSchema, GroundAtom, HashMap, LiftedAtom, Symbol, Task, Term};
+use serde::{Deserialize, Serialize};
+use typelift_model::{ActionModel, ActionSchema, GroundAtom, HashMap, LiftedAtom, Symbol, Task, Term, TypeId};
 
 use crate::Restrictions;
 use crate::reach::Reachable;
 
 /// What stands between an action and the atom that it could achieve.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Misfit {
     /// An object has a type that the action does not take.
     Type {
@@ -54,7 +56,7 @@ impl fmt::Display for Misfit {
 }
 
 /// The action that comes nearest to achieving an atom.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Nearest {
     /// Its name.
     pub action: Symbol,
@@ -63,7 +65,7 @@ pub struct Nearest {
 }
 
 /// A goal atom that cannot be reached even if nothing is ever deleted.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct UnreachableGoal {
     /// The atom.
     pub atom: GroundAtom,
@@ -74,7 +76,8 @@ pub struct UnreachableGoal {
 }
 
 /// Why there is no plan.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Explanation {
     /// Some goal atoms cannot be reached at all.
     Unreachable(Vec<UnreachableGoal>),
@@ -181,10 +184,12 @@ impl Context<'_> {
     fn misfits(&self, schema: &ActionSchema, binding: &[Option<&Symbol>]) -> Nearest {
         let hierarchy = &self.model.hierarchy;
         let mut misfits = Vec::new();
-        for (parameter, object) in schema.parameters.iter().zip(binding) {
+        for (index, (parameter, object)) in schema.parameters.iter().zip(binding).enumerate() {
             let Some(object) = object else {
-                let usable = |(name, ty): (&Symbol, &_)| {
-                    hierarchy.is_a(*ty, parameter.ty) && self.restrictions.allows(name, &schema.call.name)
+                let usable = |(name, ty): (&Symbol, &TypeId)| {
+                    hierarchy.is_a(*ty, parameter.ty)
+                        && self.restrictions.allows(name, &schema.call.name)
+                        && self.allows_type(schema, index, *ty)
                 };
                 if !self.task.init.objects.iter().any(usable) {
                     misfits.push(Misfit::NoObject { ty: hierarchy.name(parameter.ty).clone() });
@@ -198,7 +203,7 @@ impl Context<'_> {
             if !hierarchy.is_a(ty, parameter.ty) {
                 let (found, expected) = (hierarchy.name(ty).clone(), hierarchy.name(parameter.ty).clone());
                 misfits.push(Misfit::Type { object: (*object).clone(), found, expected });
-            } else if !self.restrictions.allows(object, &schema.call.name) {
+            } else if !self.restrictions.allows(object, &schema.call.name) || !self.allows_type(schema, index, ty) {
                 misfits.push(Misfit::Excluded { object: (*object).clone() });
             }
         }
@@ -206,10 +211,19 @@ impl Context<'_> {
             let missing = schema.positive_preconditions().find(|pre| !self.reachable_somehow(schema, pre, binding));
             misfits.extend(missing.map(|pre| Misfit::Precondition(written(schema, pre, binding, self.model))));
         }
-        if misfits.is_empty() && self.restrictions.banned.iter().any(|ban| ban.call.name == schema.call.name) {
+        let is_banned = || self.restrictions.banned.iter().any(|ban| ban.call.name == schema.call.name);
+        let may_not_meet = || self.restrictions.types.iter().any(|exclusion| exclusion.concerns(schema));
+        if misfits.is_empty() && (is_banned() || may_not_meet()) {
             misfits.push(Misfit::Banned);
         }
         Nearest { action: schema.name.clone(), misfits }
+    }
+
+    /// Whether an object of this type may be this parameter, whatever the others are.
+    fn allows_type(&self, schema: &ActionSchema, index: usize, ty: TypeId) -> bool {
+        let mut types = vec![None; schema.parameters.len()];
+        types[index] = Some(ty);
+        self.restrictions.allows_types(schema, &types, &self.model.hierarchy)
     }
 
     /// Whether some instance of a precondition under a partial binding is reachable.

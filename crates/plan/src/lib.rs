@@ -48,6 +48,6 @@ pub use landmark::{LandmarkSequence, landmark_sequences};
 pub use outcome::Outcome;
 pub use planner::{Options, Planner};
 pub use reach::Reachable;
-pub use restrict::{Ban, Exclusion, Restrictions};
+pub use restrict::{Ban, Exclusion, Restrictions, TypeExclusion};
 pub use search::Report;
 pub use strategy::{Strategy, UnknownStrategy};

@@ -8,7 +8,7 @@
 //! are ignored, as deletes are, unless nothing ever changes what they speak of. An effect with a condition is reached
 //! when the positive part of it is. Axioms are joined as actions are.
 
-use typelift_model::{ActionModel, Budget, GroundAtom, HashMap, HashSet, Stop, Symbol, Task, bind_places};
+use typelift_model::{ActionModel, Budget, GroundAtom, HashMap, HashSet, Hierarchy, Stop, Symbol, Task, bind_places};
 
 use crate::Restrictions;
 use crate::fact::{FactId, Facts, ObjectId};
@@ -132,6 +132,7 @@ fn reach(
         }
     }
     let mut join = Join {
+        hierarchy: &model.hierarchy,
         restrictions,
         facts,
         fluents: fluents(&schemas),
@@ -182,6 +183,7 @@ pub(crate) struct Pending {
 }
 
 pub(crate) struct Join<'a> {
+    pub(crate) hierarchy: &'a Hierarchy,
     pub(crate) restrictions: &'a Restrictions,
     pub(crate) facts: Facts,
     /// The predicates that anything changes.

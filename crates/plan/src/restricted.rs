@@ -2,11 +2,12 @@
 //! nothing of restrictions.
 //!
 //! What is restricted becomes a static predicate that must not hold: `excluded-from-CALL` of every object that may not
-//! take part in actions of this call, `banned-SCHEMA` of the parameters of every banned instance of a schema.
+//! take part in actions of this call, `unfit-for-SCHEMA` of objects whose types may not meet in it, `banned-SCHEMA` of
+//! the parameters of every banned instance of a schema.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use typelift_model::{ActionModel, ActionSchema, Atom, GroundAtom, LiftedAtom, Literal, Symbol, Task, Term};
+use typelift_model::{ActionModel, ActionSchema, Atom, GroundAtom, LiftedAtom, Literal, Symbol, Task, Term, TypeId};
 
 use crate::{Ban, Restrictions};
 
@@ -15,6 +16,7 @@ impl Restrictions {
     pub fn compiled_into(&self, model: &ActionModel, task: &Task) -> (ActionModel, Task) {
         let mut compiled = Compiled { model: model.clone(), task: task.clone() };
         compiled.exclude(self);
+        compiled.exclude_types(self, model, task);
         compiled.ban(self, model, task);
         (compiled.model, compiled.task)
     }
@@ -39,6 +41,28 @@ impl Compiled {
                 let parameters = 0..action.parameters.len() as u32;
                 let excluded = |index| LiftedAtom::new(predicate.clone(), vec![Term::Param(index)]);
                 forbid(action, parameters.map(excluded));
+            }
+        }
+    }
+
+    fn exclude_types(&mut self, restrictions: &Restrictions, model: &ActionModel, task: &Task) {
+        for (index, schema) in model.actions.iter().enumerate() {
+            for exclusion in restrictions.types.iter().filter(|exclusion| exclusion.concerns(schema)) {
+                let Some(parameters) = exclusion.parameters(schema, &model.hierarchy) else { continue };
+                let of_type = |&(_, excluded): &(usize, TypeId)| -> Vec<&Symbol> {
+                    let is_a = |(_, ty): &(&Symbol, &TypeId)| model.hierarchy.is_a(**ty, excluded);
+                    task.init.objects.iter().filter(is_a).map(|(name, _)| name).collect()
+                };
+                let choices: Vec<Vec<&Symbol>> = parameters.iter().map(of_type).collect();
+                let mut tuples = Vec::new();
+                for_each_choice(&choices, &mut Vec::new(), &mut |objects| tuples.push(objects.to_vec()));
+                if tuples.is_empty() {
+                    continue;
+                }
+                let base = format!("unfit-for-{}", schema.name);
+                let predicate = self.static_predicate(&base, parameters.len(), tuples);
+                let places = parameters.iter().map(|&(index, _)| Term::Param(index as u32)).collect();
+                forbid(&mut self.model.actions[index], [LiftedAtom::new(predicate, places)]);
             }
         }
     }

@@ -1,7 +1,7 @@
 //! The environment, as whoever acts in it sees it.
 
 use thiserror::Error;
-use typelift_model::GroundCall;
+use typelift_model::{GroundCall, Symbol};
 
 use crate::Scene;
 
@@ -68,6 +68,24 @@ pub enum WorldError {
     },
 }
 
+/// The instance of the world that this one is in after this reset: as it says itself. Else a world that cannot be reset
+/// stays one instance, and the same scenario and seed of one are one instance.
+pub fn instance_of(world: &dyn World, reset: &Reset) -> Symbol {
+    world.instance().unwrap_or_else(|| match (&reset.scenario, world.can_reset()) {
+        (_, false) => Symbol::from(world.name()),
+        (None, true) => Symbol::from(format!("{}, seed {}", world.name(), reset.seed)),
+        (Some(scenario), true) => {
+            let scenario = fingerprint(&scenario.to_string());
+            Symbol::from(format!("{}, seed {}, scenario {scenario:016x}", world.name(), reset.seed))
+        }
+    })
+}
+
+/// FNV-1a, for a short name of a scenario, which may be large.
+fn fingerprint(text: &str) -> u64 {
+    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
+}
+
 /// An environment: a simulator, a robot, a replayed log.
 pub trait World: Send {
     /// What it calls itself.
@@ -76,6 +94,11 @@ pub trait World: Send {
     /// Whether it can be set back to an initial state.
     fn can_reset(&self) -> bool {
         true
+    }
+
+    /// The instance of the world that it is in, if it says so: as long as this is the same, names mean the same things.
+    fn instance(&self) -> Option<Symbol> {
+        None
     }
 
     /// Sets it to an initial state and observes it.

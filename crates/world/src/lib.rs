@@ -28,7 +28,7 @@ mod verdict;
 
 pub use dataset::{Dataset, Record, Trace, TraceAction, TraceHeader, Transition};
 pub use dataset_file::{any_trace_from, dataset_from, read_any_trace, read_dataset};
-pub use environment::{Acted, Reset, World, WorldError};
+pub use environment::{Acted, Reset, World, WorldError, instance_of};
 pub use file_error::FileError;
 pub use hierarchy_file::{TypesFile, hierarchy_from_text, read_hierarchy, read_types};
 pub use line_reader::LINE_LIMIT;
@@ -39,7 +39,7 @@ pub use protocol::{Answer, PROTOCOL, Request, RequestBody};
 pub use recorder::Recorder;
 pub use recording::Recording;
 pub use snapshot::{Entity, Relation, Scene, Snapshot, Value};
-pub use task_file::{TASK_FORMAT, TaskError, TaskFile, check_goal, read_task, write_task};
+pub use task_file::{TASK_FORMAT, TaskError, TaskFile, read_task, write_task};
 pub use text_file::{read_text, text_from, write_file};
 pub use trace_file::read_trace;
 pub use trace_line::{TRACE_FORMAT, TraceLine};

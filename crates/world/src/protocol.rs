@@ -3,7 +3,7 @@
 //! Each request carries an `id` that its answer echoes. An `act` is answered when the world has settled.
 
 use serde::{Deserialize, Serialize};
-use typelift_model::GroundCall;
+use typelift_model::{GroundCall, Symbol};
 
 use crate::Scene;
 
@@ -84,6 +84,9 @@ pub struct Answer {
     /// To `hello`: whether it can be reset.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reset: Option<bool>,
+    /// To `hello`, `reset`: the instance of the world; as long as it is the same, names mean the same things.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub instance: Option<Symbol>,
     /// To `reset`, `observe`, `act`: what is observed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub state: Option<Scene>,

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
-use typelift_model::{GroundAtom, State, Symbol, Task, nearest};
+use typelift_model::{Goal, GoalError, GroundAtom, Symbol, Task};
 
 use crate::entity_line::UnreadKeys;
 use crate::trace_line::SceneLine;
@@ -38,46 +38,17 @@ pub enum TaskError {
     /// The state is not one.
     #[error("in the state: {0}")]
     State(ParseError),
-    /// A predicate that the model does not know.
-    #[error("in the goal {atom}: the model has no predicate `{}`", .atom.predicate)]
-    UnknownPredicate {
-        /// The goal atom.
-        atom: GroundAtom,
-        /// The predicate that may have been meant.
-        near: Option<Symbol>,
-    },
-    /// A predicate with another number of arguments.
-    #[error("in the goal {atom}: `{}` takes {expected} argument{}, not {}", .atom.predicate, if *.expected == 1 { "" } else { "s" }, .atom.arity())]
-    Arity {
-        /// The goal atom.
-        atom: GroundAtom,
-        /// The predicate's number of arguments.
-        expected: usize,
-    },
-    /// An object that the state does not have.
-    #[error("in the goal {atom}: there is no `{object}` in the state")]
-    UnknownObject {
-        /// The goal atom.
-        atom: GroundAtom,
-        /// The object.
-        object: Symbol,
-        /// The object that may have been meant.
-        near: Option<Symbol>,
-    },
+    /// The goal is not one for this model and state.
+    #[error(transparent)]
+    Goal(#[from] GoalError),
 }
 
 impl TaskError {
     /// What to do about it, if that is known.
     pub fn hint(&self) -> Option<String> {
         match self {
-            Self::UnknownPredicate { near, .. } | Self::UnknownObject { near, .. } => {
-                near.as_ref().map(|name| format!("Did you mean `{name}`?"))
-            }
             Self::NoState => Some("Give it a `state`, or run it in an environment (typelift run).".to_owned()),
-            Self::Arity { atom, expected } => {
-                let args: Vec<String> = (1..=*expected).map(|i| format!("x{i}")).collect();
-                Some(format!("Write `{}({})`, with the names of entities.", atom.predicate, args.join(",")))
-            }
+            Self::Goal(error) => error.hint(),
             Self::State(_) => None,
         }
     }
@@ -92,30 +63,6 @@ impl TaskError {
             _ => error.with_hint(self.hint()),
         }
     }
-}
-
-/// Checks that every goal atom is over known predicates and over objects of the state.
-///
-/// # Errors
-/// [`TaskError`] for the first that is not.
-pub fn check_goal(goal: &[GroundAtom], state: &State, predicates: &BTreeMap<Symbol, usize>) -> Result<(), TaskError> {
-    for atom in goal {
-        match predicates.get(&atom.predicate) {
-            Some(&expected) if expected != atom.arity() => {
-                return Err(TaskError::Arity { atom: atom.clone(), expected });
-            }
-            Some(_) => {}
-            None => {
-                let near = nearest(atom.predicate.as_str(), predicates.keys()).cloned();
-                return Err(TaskError::UnknownPredicate { atom: atom.clone(), near });
-            }
-        }
-        if let Some(object) = atom.args.iter().find(|arg| !state.objects.contains_key(*arg)) {
-            let near = nearest(object.as_str(), state.objects.keys()).cloned();
-            return Err(TaskError::UnknownObject { atom: atom.clone(), object: object.clone(), near });
-        }
-    }
-    Ok(())
 }
 
 impl TaskFile {
@@ -161,8 +108,9 @@ impl TaskFile {
     pub fn task(&self, parser: &mut Parser, predicates: &BTreeMap<Symbol, usize>) -> Result<Task, TaskError> {
         let scene = self.state.as_ref().ok_or(TaskError::NoState)?;
         let init = parser.parse(scene).map_err(TaskError::State)?;
-        check_goal(&self.goal, &init, predicates)?;
-        Ok(Task::new(init, self.goal.clone()))
+        let goal = Goal::from(self.goal.clone());
+        goal.check(&init, predicates)?;
+        Ok(Task::new(init, goal))
     }
 
     /// The task as JSON text, ending in a line feed.

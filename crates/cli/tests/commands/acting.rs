@@ -23,7 +23,7 @@ fn a_fault_is_found_out_and_remembered() {
     insta::assert_snapshot!("fault-json", folder.run(&format!("{fault} --json")));
     insta::assert_snapshot!(
         "fault-remembered",
-        folder.run("run kitchen.json K/faults/exception_coconut.json K/faults/exception_coconut_lettuce.json --kitchen --imagine -q")
+        folder.run("run kitchen.json K/faults/exception_coconut.json K/faults/exception_coconut_lettuce.json --kitchen --instance room --imagine -q")
     );
     let without = folder.run("run kitchen.json K/faults/broken_cutboard_lettuce.json K/tasks/T1.1.json --kitchen -q");
     assert_eq!(without.code, 12, "not every goal was reached: {without}");

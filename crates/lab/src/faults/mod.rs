@@ -12,7 +12,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use typelift::agent::Experience;
-use typelift::model::ActionModel;
+use typelift::model::{ActionModel, Symbol};
 
 use crate::attempt::{Setting, attempt_in};
 use crate::error::LabError;
@@ -113,6 +113,8 @@ impl Experiment for FaultsExperiment {
         let options = typelift::agent::Options {
             restart: run.restart,
             max_proposals: self.options.limits.max_proposals,
+            // The later task is one in the same kitchen, whatever else lies in it.
+            instance: Some(Symbol::new("kitchen")),
             ..paper_options(true)
         };
         let mut experience = Experience::new();

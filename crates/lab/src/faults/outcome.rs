@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
-use typelift::agent::{Account, Ending};
+use typelift::agent::{Account, Ending, Suspect};
 use typelift::model::{GroundCall, Plan};
 use typelift::plan::Exclusion;
 use typelift::world::{Acted, Reset, Scene, World, WorldError};
@@ -53,7 +53,8 @@ pub(super) fn outcome(account: &Account) -> Outcome {
         Ending::NoPlan(explanation) => explanation.to_string().lines().next().map(str::to_owned),
         _ => None,
     };
-    let excluded: BTreeSet<String> = account.failures.iter().flat_map(|f| &f.excluded).map(exclusion).collect();
+    let excluded: BTreeSet<String> =
+        account.failures.iter().flat_map(|f| &f.suspects).map(ToString::to_string).collect();
     Outcome {
         ending: ending_word(&account.ending),
         why,
@@ -63,30 +64,30 @@ pub(super) fn outcome(account: &Account) -> Outcome {
         excluded: excluded.into_iter().collect(),
         imagined: plan.map(imagined).unwrap_or_default().into_iter().collect(),
         failed: account.failures.iter().map(|failure| failure.call.to_string()).collect(),
-        lifted: account.lifted,
-        relaxed: account.relaxed,
-    }
-}
-
-fn exclusion(exclusion: &Exclusion) -> String {
-    match &exclusion.call {
-        None => exclusion.object.to_string(),
-        Some(call) => format!("{} from {call}", exclusion.object),
+        lifted: account.resorts.lifted(),
+        relaxed: account.resorts.relaxed(),
     }
 }
 
 /// Known mistakes made again in the later task: a ground action, with the effect expected of it, that failed in the
 /// first and fails again, or a thing excluded then that takes part although exclusions were not lifted.
 pub(super) fn repeated(first: &Attempt, later: &Attempt, told: &[GroundCall]) -> Vec<String> {
-    let before: BTreeMap<_, _> = first.experience.bans().map(|(ban, why)| (ban, why.count)).collect();
-    let again = later.experience.bans().filter(|(ban, why)| before.get(ban).is_some_and(|count| why.count > *count));
+    let bans = |attempt: &Attempt| attempt.experience.bans(&attempt.instance);
+    let before: BTreeMap<_, _> = bans(first).into_iter().map(|(ban, why)| (ban, why.count)).collect();
+    let after = bans(later).into_iter();
+    let again = after.filter(|(ban, why)| before.get(ban).is_some_and(|count| why.count > *count));
+    let suspects = first.experience.suspects(&first.instance);
     let excluded = |call: &&GroundCall| {
-        first.experience.exclusions().any(|(exclusion, _)| {
-            call.args.contains(&exclusion.object) && exclusion.call.as_ref().is_none_or(|name| *name == call.name)
+        suspects.iter().any(|(suspect, _)| match suspect {
+            Suspect::Object(Exclusion { object, call: from }) => {
+                call.args.contains(object) && from.as_ref().is_none_or(|name| *name == call.name)
+            }
+            // What is said of types says nothing of names.
+            Suspect::Types(_) | Suspect::Condition(_) => false,
         })
     };
-    let used = told.iter().filter(|call| !later.account.lifted && excluded(call));
-    again.map(|(ban, _)| &ban.call).chain(used).map(ToString::to_string).collect()
+    let used = told.iter().filter(|call| !later.account.resorts.lifted() && excluded(call));
+    again.map(|(ban, _)| ban.call.to_string()).chain(used.map(ToString::to_string)).collect()
 }
 
 /// Calls that failed in the first task and again in the later one, where something else was expected of them: nothing

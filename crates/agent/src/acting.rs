@@ -1,0 +1,221 @@
+//! How an episode carries out a plan: a step at a time, each held against what was expected.
+//!
+//! After a failed step, once its retries are used up, it is noted with what is to blame, and the very same action is not
+//! tried again. Then it imagines and plans again: from the initial state if the world is set back (the paper's way),
+//! else from where it is.
+
+use typelift_model::{State, Symbol};
+use typelift_plan::Ban;
+use typelift_world::Verdict;
+
+use crate::account::{Ending, Failure};
+use crate::deed::{Deed, Failed};
+use crate::episode::{Episode, EpisodeError, Phase};
+use crate::event::{Event, Observer};
+use crate::execution::Execution;
+use crate::monitor::{StepResult, compare};
+use crate::objection::Objection;
+use crate::turn::Command;
+
+impl Episode {
+    /// Goes on to the next step of the plan, or ends it.
+    pub(crate) fn advance(&mut self, observer: &mut dyn Observer) -> Result<Command, EpisodeError> {
+        let Some(execution) = &self.execution else { return self.propose(observer) };
+        if execution.step().is_none() {
+            if !self.goal.holds_in(&self.state) {
+                self.in_vain.push((execution.made_for.clone(), execution.steps()));
+                return self.again(observer);
+            }
+            return Ok(self.end(Ending::Solved, observer));
+        }
+        if !self.options.restart
+            && let Some(missing) = execution.missing_precondition(&self.state)
+        {
+            observer.event(&Event::Drifted { step: execution.next_step + 1, missing });
+            return self.propose(observer);
+        }
+        if let Some(stop) = self.budget.stopped() {
+            return Ok(self.end(Ending::Stopped(stop), observer));
+        }
+        Ok(self.command(Phase::AwaitingResult))
+    }
+
+    /// Compares what happened with what was expected. `excuse` is what the driver reported instead of success.
+    pub(crate) fn judge(
+        &mut self,
+        after: State,
+        excuse: Option<Verdict>,
+        reason: Option<String>,
+        observer: &mut dyn Observer,
+    ) -> Result<Command, EpisodeError> {
+        let Some(execution) = &mut self.execution else { return self.propose(observer) };
+        self.account.actions += 1;
+        execution.taken = execution.next_step + 1;
+        let compared = |expected| compare(&expected, &self.state, &after, execution.expects_changes());
+        let seen = execution.expected(&self.state).map_or(Verdict::Otherwise, compared);
+        let verdict = match excuse {
+            Some(excuse) if seen == Verdict::Nothing || excuse == Verdict::TimedOut => match seen {
+                Verdict::AsExpected => seen,
+                _ => excuse,
+            },
+            _ => seen,
+        };
+        let (deed, result) = (self.deed(&self.state), StepResult::Tried(verdict));
+        self.report_step(result, reason.clone(), &after, observer);
+        let before = std::mem::replace(&mut self.state, after);
+        if verdict != Verdict::AsExpected {
+            return self.fail(result, reason, &before, observer);
+        }
+        if let Some(deed) = deed {
+            self.experience.succeeded(deed);
+        }
+        if let Some(execution) = &mut self.execution {
+            execution.next_step += 1;
+            execution.retries = 0;
+        }
+        self.advance(observer)
+    }
+
+    /// The next step as experience keeps it.
+    fn deed(&self, state: &State) -> Option<Deed> {
+        let execution = self.execution.as_ref()?;
+        let (step, schema) = (execution.step()?, execution.schema()?);
+        Some(Deed::of(step, schema, state, &self.instance, &self.model.hierarchy))
+    }
+
+    fn report_step(&self, result: StepResult, reason: Option<String>, after: &State, observer: &mut dyn Observer) {
+        let Some(execution) = &self.execution else { return };
+        let Some(step) = execution.step() else { return };
+        observer.event(&Event::Stepped {
+            proposal: self.account.proposals,
+            step: execution.next_step + 1,
+            call: step.call.clone(),
+            imagined: step.imagined.is_some(),
+            result,
+            reason,
+            added: self.state.added(after).cloned().collect(),
+            deleted: self.state.deleted(after).cloned().collect(),
+        });
+    }
+
+    /// A step failed: tries it again, or learns from it and plans anew.
+    fn fail(
+        &mut self,
+        result: StepResult,
+        reason: Option<String>,
+        before: &State,
+        observer: &mut dyn Observer,
+    ) -> Result<Command, EpisodeError> {
+        let most = self.options.retries();
+        if let Some(execution) = &mut self.execution
+            && execution.retries < most
+            && execution.missing_precondition(&self.state).is_none()
+        {
+            execution.retries += 1;
+            if let Some(step) = execution.step() {
+                observer.event(&Event::Retried { call: step.call.clone() });
+            }
+            return Ok(self.command(Phase::AwaitingResult));
+        }
+        self.note_failure(result, reason, None, before, observer);
+        self.again(observer)
+    }
+
+    /// A person said no to a step. An objection that is not about the step is none, and the proposal stands.
+    pub(crate) fn reject(
+        &mut self,
+        step: usize,
+        objection: Option<Objection>,
+        reason: String,
+        observer: &mut dyn Observer,
+    ) -> Result<Command, EpisodeError> {
+        let Some(execution) = &mut self.execution else { return Ok(self.standing()) };
+        let at = step.clamp(1, execution.plan.len()) - 1;
+        let fits = match &objection {
+            Some(Objection::Broken { objects } | Objection::WrongKind { objects }) => {
+                objects.iter().all(|object| execution.plan.steps[at].objects.contains(object))
+            }
+            Some(Objection::While { atom }) => self.model.predicates.get(&atom.predicate) == Some(&atom.arity()),
+            Some(Objection::NotNow) | None => true,
+        };
+        if !fits {
+            return Ok(self.standing());
+        }
+        execution.next_step = at;
+        let objection = objection_to(execution, objection, &self.state);
+        self.report_step(StepResult::Rejected, Some(reason.clone()), &self.state, observer);
+        let state = self.state.clone();
+        self.note_failure(StepResult::Rejected, Some(reason), objection, &state, observer);
+        self.again(observer)
+    }
+
+    /// Notes that the next step failed, or was rejected, in the state `before`, and what is to blame.
+    fn note_failure(
+        &mut self,
+        result: StepResult,
+        reason: Option<String>,
+        objection: Option<Objection>,
+        before: &State,
+        observer: &mut dyn Observer,
+    ) {
+        let (Some(execution), Some(deed)) = (&self.execution, self.deed(before)) else { return };
+        let Some(step) = execution.step().cloned() else { return };
+        let why = format!("{} {}", step.call, reason.as_deref().unwrap_or(result.phrase()));
+        let is_actor = |object: &&Symbol| before.objects.get(*object).is_some_and(|ty| self.model.is_actor(*ty));
+        let failed = Failed {
+            deed,
+            task: self.task,
+            ban: execution.expected(before).map(|action| Ban::of(&action)),
+            actors: step.objects.iter().filter(is_actor).cloned().collect(),
+            in_goal: step.objects.iter().filter(|object| self.goal.mentions(object)).cloned().collect(),
+            objection,
+            useless: self.options.restart,
+            reason: why.clone(),
+        };
+        let failure = (self.account.proposals, execution.next_step + 1);
+        let suspects = self.experience.failed(failed);
+        for suspect in &suspects {
+            observer.event(&Event::Excluded { suspect: suspect.clone(), reason: why.clone() });
+        }
+        self.account.failures.push(Failure {
+            proposal: failure.0,
+            step: failure.1,
+            action: step.action,
+            call: step.call,
+            result,
+            reason,
+            imagined: step.imagined.is_some(),
+            suspects,
+        });
+    }
+
+    /// Plans anew: from the initial state if the world is set back, else from where it is.
+    fn again(&mut self, observer: &mut dyn Observer) -> Result<Command, EpisodeError> {
+        if self.options.restart && self.account.actions > 0 {
+            if let Some(execution) = &mut self.execution {
+                execution.taken = 0;
+            }
+            return Ok(self.command(Phase::AwaitingReset));
+        }
+        self.propose(observer)
+    }
+}
+
+/// What is said against the next step, if nothing more is said: that the things which an imagined step puts where none
+/// of their kind was ever seen do not go there.
+fn objection_to(execution: &Execution, said: Option<Objection>, state: &State) -> Option<Objection> {
+    let unspecific = match &said {
+        None => true,
+        Some(Objection::WrongKind { objects }) => objects.is_empty(),
+        Some(_) => false,
+    };
+    let Some(step) = execution.step().filter(|_| unspecific) else { return said };
+    let replaced = step.imagined.iter().flat_map(|imagined| &imagined.replaced);
+    let new = replaced.filter_map(|replacement| {
+        let object = step.objects.get(replacement.parameter as usize)?;
+        let seen = execution.model.hierarchy.is_a(*state.objects.get(object)?, replacement.from);
+        (!seen && step.call.args.contains(object)).then(|| object.clone())
+    });
+    let objects: Vec<Symbol> = new.collect();
+    if objects.is_empty() { said } else { Some(Objection::WrongKind { objects }) }
+}

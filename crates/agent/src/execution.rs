@@ -1,0 +1,79 @@
+//! The plan that is proposed or carried out, and how far it is.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+use typelift_model::{ActionModel, ActionSchema, GroundAction, Plan, State, Step, Symbol};
+use typelift_plan::Restrictions;
+
+use crate::blame::Condition;
+
+/// On what terms a plan is made.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Terms {
+    /// What is avoided.
+    pub(crate) restrictions: Restrictions,
+    /// What keeps actions from being used.
+    pub(crate) conditions: Vec<Condition>,
+    /// Actions are used although some of their effects hold already, whatever the options say.
+    pub(crate) relaxed: bool,
+}
+
+/// A plan that is proposed or carried out.
+#[derive(Debug, Clone)]
+pub(crate) struct Execution {
+    pub(crate) plan: Plan,
+    /// The model that it was made with: imagined actions added, strict if it is.
+    pub(crate) model: Arc<ActionModel>,
+    pub(crate) terms: Terms,
+    /// The state that it was made for.
+    pub(crate) made_for: State,
+    /// How many plans the planner has given for this state and on these terms, this one included.
+    pub(crate) plans_given: usize,
+    pub(crate) next_step: usize,
+    /// How many steps were executed.
+    pub(crate) taken: usize,
+    /// How often the next step was tried again.
+    pub(crate) retries: u32,
+}
+
+impl Execution {
+    /// The next step; none at the end.
+    pub(crate) fn step(&self) -> Option<&Step> {
+        self.plan.steps.get(self.next_step)
+    }
+
+    /// The action of the next step.
+    pub(crate) fn schema(&self) -> Option<&ActionSchema> {
+        self.model.action(self.step()?.action.as_str())
+    }
+
+    /// The next step as it is expected in this state.
+    pub(crate) fn expected(&self, state: &State) -> Option<GroundAction> {
+        self.schema()?.instantiate(&self.step()?.objects, state, &self.model.hierarchy).ok()
+    }
+
+    /// Why the next step cannot be taken in this state, if something is missing.
+    pub(crate) fn missing_precondition(&self, state: &State) -> Option<String> {
+        let Some(action) = self.expected(state) else { return Some("an object of it".to_owned()) };
+        let (atom, positive) = action.unmet(state).next()?;
+        Some(format!("{}{atom}", if *positive { "" } else { "not " }))
+    }
+
+    /// Whether every effect of the next step must be a change: in a relaxed plan not every one will be.
+    pub(crate) fn expects_changes(&self) -> bool {
+        !self.terms.relaxed && self.schema().is_some_and(|action| action.strict)
+    }
+
+    /// The steps as they are told apart: action and objects.
+    pub(crate) fn steps(&self) -> Steps {
+        steps(&self.plan)
+    }
+}
+
+/// The steps of a plan as they are told apart: action and objects.
+pub(crate) type Steps = Vec<(Symbol, Vec<Symbol>)>;
+
+pub(crate) fn steps(plan: &Plan) -> Steps {
+    plan.steps.iter().map(|step| (step.action.clone(), step.objects.clone())).collect()
+}

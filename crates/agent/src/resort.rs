@@ -1,0 +1,110 @@
+//! What is given up, one thing after the other, where there is no plan.
+
+use serde::{Deserialize, Serialize};
+
+/// Which exclusions count. Bans always do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Counted {
+    /// All.
+    All,
+    /// Those that failures in the current task led to, and those that a person asked for.
+    OfThisTask,
+    /// Those that a person asked for.
+    None,
+}
+
+/// What may be given up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Resort {
+    /// What was excluded in earlier tasks may be used, from then on.
+    EarlierExclusions,
+    /// Actions may be used although some of what they add holds already, for one proposal.
+    Strictness,
+    /// Whatever was excluded may be used, from then on. Ground actions that failed stay banned.
+    AllExclusions,
+}
+
+impl Resort {
+    /// A short phrase for what is given up.
+    pub fn phrase(self) -> &'static str {
+        match self {
+            Self::EarlierExclusions | Self::AllExclusions => "exclusions are lifted",
+            Self::Strictness => "effects may hold already",
+        }
+    }
+}
+
+/// What became of a resort.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ResortState {
+    /// It was not needed, or does not apply.
+    Untried,
+    /// It was tried, and there was no plan either.
+    InVain,
+    /// It led to a plan: the number of the first proposal that rests on it.
+    Taken(u64),
+}
+
+/// A resort, and what became of it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct LastResort {
+    /// The resort.
+    pub resort: Resort,
+    /// What became of it.
+    pub state: ResortState,
+}
+
+/// The resorts of an episode, in the order in which they are tried.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct LastResorts(Vec<LastResort>);
+
+impl Default for LastResorts {
+    fn default() -> Self {
+        let untried = |resort| LastResort { resort, state: ResortState::Untried };
+        Self([Resort::EarlierExclusions, Resort::Strictness, Resort::AllExclusions].map(untried).to_vec())
+    }
+}
+
+impl LastResorts {
+    /// The resorts in order.
+    pub fn iter(&self) -> impl Iterator<Item = &LastResort> {
+        self.0.iter()
+    }
+
+    /// Whether this one led to a plan.
+    pub fn is_taken(&self, resort: Resort) -> bool {
+        self.0.iter().any(|last| last.resort == resort && matches!(last.state, ResortState::Taken(_)))
+    }
+
+    /// Whether exclusions were lifted.
+    pub fn lifted(&self) -> bool {
+        self.is_taken(Resort::EarlierExclusions) || self.is_taken(Resort::AllExclusions)
+    }
+
+    /// Whether some plan was made without strictness, although it was asked for.
+    pub fn relaxed(&self) -> bool {
+        self.is_taken(Resort::Strictness)
+    }
+
+    /// Which exclusions count, with what was given up so far.
+    pub(crate) fn counted(&self) -> Counted {
+        if self.is_taken(Resort::AllExclusions) {
+            Counted::None
+        } else if self.is_taken(Resort::EarlierExclusions) {
+            Counted::OfThisTask
+        } else {
+            Counted::All
+        }
+    }
+
+    /// Notes whether a resort led to a plan, with the proposal's number. What was taken once stays taken.
+    pub(crate) fn tried(&mut self, resort: Resort, proposal: Option<u64>) {
+        let found = self.0.iter_mut().filter(|last| last.resort == resort);
+        for last in found.filter(|last| !matches!(last.state, ResortState::Taken(_))) {
+            last.state = proposal.map_or(ResortState::InVain, ResortState::Taken);
+        }
+    }
+}

@@ -1,0 +1,234 @@
+//! A running episode as JSON text, and back: everything but what the driver hands in again (model, options, budget) and
+//! what can be computed again (imagined actions, and the search, which is only taken up where another plan is wanted).
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+use typelift_model::{
+    ActionModel, Budget, Goal, GroundAtom, GroundCall, Hierarchy, Pattern, Plan, State, Symbol, Unknown,
+};
+
+use crate::account::Account;
+use crate::episode::{Episode, Phase};
+use crate::execution::{Execution, Steps, Terms};
+use crate::experience::Experience;
+use crate::options::Options;
+use crate::propose::ProposeError;
+use crate::turn::CommandId;
+
+/// The format that this version saves and restores.
+pub const EPISODE_FORMAT: &str = "episode/1";
+
+/// Why an episode could not be restored.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum RestoreError {
+    /// The text is no saved episode.
+    #[error("this is no saved episode: {0}")]
+    Unreadable(String),
+    /// It was saved in another format.
+    #[error("the episode was saved in the format `{found}`; this version reads {EPISODE_FORMAT}")]
+    Format {
+        /// The other format.
+        found: String,
+    },
+    /// With this model and these options it cannot have been saved: something that it mentions is not there.
+    #[error("the episode was saved with another model or other options: {0}")]
+    OtherModel(String),
+    /// What was imagined could not be imagined again.
+    #[error(transparent)]
+    Propose(#[from] ProposeError),
+}
+
+#[derive(Serialize, Deserialize)]
+struct SavedEpisode {
+    format: String,
+    goal: Goal,
+    values: Vec<(GroundAtom, u32)>,
+    experience: Experience,
+    task: u64,
+    instance: Symbol,
+    phase: Phase,
+    standing: CommandId,
+    state: SavedState,
+    execution: Option<SavedExecution>,
+    in_vain: Vec<(SavedState, Steps)>,
+    account: Account,
+}
+
+#[derive(Serialize, Deserialize)]
+struct SavedExecution {
+    steps: Vec<SavedStep>,
+    terms: Terms,
+    made_for: SavedState,
+    plans_given: usize,
+    next_step: usize,
+    taken: usize,
+    retries: u32,
+}
+
+#[derive(Serialize, Deserialize)]
+struct SavedStep {
+    action: Symbol,
+    objects: Vec<Symbol>,
+    call: GroundCall,
+    cost: u32,
+}
+
+/// A state with its types by name.
+#[derive(Default, Serialize, Deserialize)]
+struct SavedState {
+    objects: BTreeMap<Symbol, Symbol>,
+    atoms: BTreeSet<GroundAtom>,
+    #[serde(default, skip_serializing_if = "BTreeSet::is_empty")]
+    unknown: BTreeSet<Pattern<Symbol>>,
+    /// Of an open state: the atoms that are known to be false.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    known_false: Option<BTreeSet<GroundAtom>>,
+}
+
+impl SavedState {
+    fn of(state: &State, hierarchy: &Hierarchy) -> Self {
+        let (unknown, known_false) = match &state.unknown {
+            Unknown::Matching(patterns) => (patterns.clone(), None),
+            Unknown::AllBut(atoms) => (BTreeSet::new(), Some(atoms.clone())),
+        };
+        let objects = state.objects.iter().map(|(name, ty)| (name.clone(), hierarchy.name(*ty).clone()));
+        Self { objects: objects.collect(), atoms: state.atoms.clone(), unknown, known_false }
+    }
+
+    fn restored(self, hierarchy: &Hierarchy) -> Result<State, RestoreError> {
+        let typed = |(name, ty): (Symbol, Symbol)| match hierarchy.id(ty.as_str()) {
+            Some(ty) => Ok((name, ty)),
+            None => Err(RestoreError::OtherModel(format!("there is no type `{ty}`"))),
+        };
+        let unknown = self.known_false.map_or(Unknown::Matching(self.unknown), Unknown::AllBut);
+        Ok(State {
+            objects: self.objects.into_iter().map(typed).collect::<Result<_, _>>()?,
+            atoms: self.atoms,
+            unknown,
+        })
+    }
+}
+
+impl SavedExecution {
+    fn of(execution: &Execution) -> Self {
+        let steps = execution.plan.steps.iter().map(|step| SavedStep {
+            action: step.action.clone(),
+            objects: step.objects.clone(),
+            call: step.call.clone(),
+            cost: step.cost,
+        });
+        Self {
+            steps: steps.collect(),
+            terms: execution.terms.clone(),
+            made_for: SavedState::of(&execution.made_for, &execution.model.hierarchy),
+            plans_given: execution.plans_given,
+            next_step: execution.next_step,
+            taken: execution.taken,
+            retries: execution.retries,
+        }
+    }
+
+    fn restored(self, made_for: State, model: Arc<ActionModel>) -> Result<Execution, RestoreError> {
+        let step = |saved: SavedStep| {
+            let schema = model.action(saved.action.as_str());
+            let schema = schema.filter(|schema| schema.parameters.len() == saved.objects.len());
+            let step = schema.map(|schema| schema.step(saved.objects, saved.cost));
+            let other =
+                || RestoreError::OtherModel(format!("there is no action `{}` for {}", saved.action, saved.call));
+            step.filter(|step| step.call == saved.call).ok_or_else(other)
+        };
+        let plan = Plan { steps: self.steps.into_iter().map(step).collect::<Result<_, _>>()? };
+        let next_step = self.next_step.min(plan.len());
+        Ok(Execution {
+            taken: self.taken.min(plan.len()),
+            plan,
+            terms: self.terms,
+            made_for,
+            plans_given: self.plans_given,
+            next_step,
+            retries: self.retries,
+            model,
+        })
+    }
+}
+
+impl Episode {
+    /// The episode as JSON text, from which [`restore`](Self::restore) makes one that goes on in the same way.
+    pub fn save(&self) -> String {
+        let hierarchy = &self.model.hierarchy;
+        let in_vain = self.in_vain.iter().map(|(state, steps)| (SavedState::of(state, hierarchy), steps.clone()));
+        let saved = SavedEpisode {
+            format: EPISODE_FORMAT.to_owned(),
+            goal: self.goal.clone(),
+            values: self.values.iter().map(|(function, value)| (function.clone(), *value)).collect(),
+            experience: self.experience.clone(),
+            task: self.task,
+            instance: self.instance.clone(),
+            phase: self.phase,
+            standing: self.standing,
+            state: SavedState::of(&self.state, hierarchy),
+            execution: self.execution.as_ref().map(SavedExecution::of),
+            in_vain: in_vain.collect(),
+            account: self.account.clone(),
+        };
+        // Every part is made of what JSON can hold.
+        serde_json::to_string(&saved).unwrap_or_default()
+    }
+
+    /// The episode that was saved, with the same model and options; what stands is asked for by
+    /// [`Input::Started`](crate::Input::Started). The same inputs lead to the same commands as without saving, as far as
+    /// the budget allows: what was spent before is not counted.
+    ///
+    /// The cost is that of imagining once, where imagination is allowed.
+    ///
+    /// # Errors
+    /// [`RestoreError`] if the text is no saved episode, or was saved with another model or other options.
+    pub fn restore(
+        text: &str,
+        model: Arc<ActionModel>,
+        options: Options,
+        budget: Budget,
+    ) -> Result<Self, RestoreError> {
+        #[derive(Deserialize)]
+        struct Envelope {
+            format: String,
+        }
+        let unreadable = |error: serde_json::Error| RestoreError::Unreadable(error.to_string());
+        let Envelope { format } = serde_json::from_str(text).map_err(unreadable)?;
+        if format != EPISODE_FORMAT {
+            return Err(RestoreError::Format { found: format });
+        }
+        let saved: SavedEpisode = serde_json::from_str(text).map_err(unreadable)?;
+        let hierarchy = &model.hierarchy;
+        let in_vain = saved.in_vain.into_iter().map(|(state, steps)| Ok((state.restored(hierarchy)?, steps)));
+        let mut episode = Self {
+            in_vain: in_vain.collect::<Result<_, RestoreError>>()?,
+            state: saved.state.restored(hierarchy)?,
+            model,
+            goal: saved.goal,
+            values: saved.values.into_iter().collect(),
+            options,
+            budget,
+            experience: saved.experience,
+            task: saved.task,
+            instance: saved.instance,
+            phase: saved.phase,
+            standing: saved.standing,
+            execution: None,
+            proposal: None,
+            account: saved.account,
+        };
+        if let Some(mut execution) = saved.execution {
+            let made_for = std::mem::take(&mut execution.made_for).restored(&episode.model.hierarchy)?;
+            let planned_with = episode.planned_on(&execution.terms, &made_for)?;
+            episode.execution = Some(execution.restored(made_for, planned_with)?);
+        }
+        if episode.account.solved() {
+            episode.account.plan = Some(episode.plan_taken());
+        }
+        Ok(episode)
+    }
+}
