@@ -18,6 +18,7 @@ use crate::objection::Objection;
 
 /// What may be to blame for a failure, and is avoided therefore.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(tag = "suspect", rename_all = "snake_case")]
 pub enum Suspect {
     /// An object, in its instance of the world.
@@ -47,6 +48,7 @@ impl fmt::Display for Suspect {
 
 /// What must not hold where a call is used.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Condition {
     /// In actions of this call name,
     pub call: Symbol,

@@ -14,6 +14,17 @@ pub enum StepResult {
 }
 
 impl StepResult {
+    /// Every result.
+    pub const ALL: [Self; 7] = [
+        Self::Tried(Verdict::AsExpected),
+        Self::Tried(Verdict::Nothing),
+        Self::Tried(Verdict::Partly),
+        Self::Tried(Verdict::Otherwise),
+        Self::Tried(Verdict::Refused),
+        Self::Tried(Verdict::TimedOut),
+        Self::Rejected,
+    ];
+
     /// A short phrase for it.
     pub fn phrase(self) -> &'static str {
         match self {
@@ -47,18 +58,22 @@ impl Serialize for StepResult {
     }
 }
 
+#[cfg(feature = "schema")]
+impl schemars::JsonSchema for StepResult {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "StepResult".into()
+    }
+
+    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let words: Vec<&str> = Self::ALL.iter().map(|result| result.word()).collect();
+        schemars::json_schema!({ "description": "What came of a step.", "type": "string", "enum": words })
+    }
+}
+
 impl<'de> Deserialize<'de> for StepResult {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let word = String::deserialize(deserializer)?;
-        let verdicts = [
-            Verdict::AsExpected,
-            Verdict::Nothing,
-            Verdict::Partly,
-            Verdict::Otherwise,
-            Verdict::Refused,
-            Verdict::TimedOut,
-        ];
-        let mut results = verdicts.into_iter().map(Self::Tried).chain([Self::Rejected]);
+        let mut results = Self::ALL.into_iter();
         results
             .find(|result| result.word() == word)
             .ok_or_else(|| de::Error::custom(format!("no result is called `{word}`")))

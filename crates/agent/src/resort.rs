@@ -15,6 +15,7 @@ pub enum Counted {
 
 /// What may be given up.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Resort {
     /// What was excluded in earlier tasks may be used, from then on.

@@ -8,9 +8,10 @@ use std::time::Duration;
 use clap::ValueEnum;
 use typelift::agent::{Confirmation, Objection};
 use typelift::model::{ActionModel, GroundAtom, Plan, Symbol};
+use typelift::words::numbered_steps;
 
 use crate::limits::Interrupt;
-use crate::plan_text::numbered_steps;
+use crate::style::painted;
 
 /// How often it is looked whether Ctrl-C was pressed while an answer is waited for.
 const ANSWER_INTERVAL: Duration = Duration::from_millis(50);
@@ -36,7 +37,9 @@ pub(crate) fn confirm(which: Option<Which>, plan: &Plan, model: &ActionModel, in
     if !ask {
         return Confirmation::Approve;
     }
-    anstream::eprint!("{}", numbered_steps(plan, &model.hierarchy));
+    for line in numbered_steps(plan, &model.hierarchy) {
+        anstream::eprintln!("{}", painted(&line));
+    }
     loop {
         anstream::eprint!("{QUESTION}");
         let Some(answer) = answer(interrupt) else {

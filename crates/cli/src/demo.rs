@@ -8,17 +8,15 @@ use typelift::agent::{Account, Confirmation, Episode, Event, Experience, Observe
 use typelift::imagine;
 use typelift::learn::{self, Report, learn_dataset};
 use typelift::model::{ActionModel, Budget, LearnedModel, ParseConfig, Plan};
+use typelift::words::{count, describe_action, imagined_note, individual_name, line, plan_size};
 use typelift::world::{Dataset, Parser, Reset, World};
 use typelift_kitchen::{Demonstration, Kitchen, KitchenTask, demonstrations, draw, faults, hierarchy, tasks};
 
-use crate::describe::{describe, individual_name};
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::limits::Clock;
-use crate::narrate::told;
-use crate::plan_text::{imagined_note, plan_size};
 use crate::quantities::parse_whole;
-use crate::style::{DIM, GOOD, HEAD, IMAGINED, count, wrapped};
+use crate::style::{DIM, GOOD, HEAD, IMAGINED, described, painted, wrapped};
 
 /// The task shown of each set, and what is new about it.
 const SHOWN: [(&str, &str); 6] = [
@@ -143,7 +141,7 @@ impl Observer for Lines {
         // A reason gets a line of its own: with it, a line would be longer than 80 columns.
         let mut event = event.clone();
         let reason = if let Event::Stepped { reason, .. } = &mut event { reason.take() } else { None };
-        self.0.extend(told(&event));
+        self.0.extend(line(&event).as_ref().map(painted));
         self.0.extend(reason.map(|reason| format!("       {DIM}{reason}{DIM:#}")));
     }
 }
@@ -194,7 +192,7 @@ fn print_learned(out: &mut impl Write, learned: &LearnedModel, report: &Report, 
     }
     if let Some(action) = model.action("USE-cutboard-food") {
         writeln!(out, "\n{HEAD}One of them{HEAD:#}, in full:")?;
-        write!(out, "{}", describe(action, model, None))?;
+        write!(out, "{}", described(&describe_action(action, model, None)))?;
     }
     Ok(())
 }

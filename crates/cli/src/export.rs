@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use typelift::model::{PddlNames, Symbol};
 use typelift::pddl::{ExportNames, ExportOptions, Exported, export};
+use typelift::words::count;
 use typelift::world::{FileError, write_file};
 
 use crate::exit::Exit;
@@ -16,7 +17,6 @@ use crate::files::{domain_name, keep_inputs, task_name};
 use crate::limits::{Clock, Interrupt, Limits};
 use crate::planner_option::LevelArgument;
 use crate::planning_options::ModelArguments;
-use crate::style::count;
 use crate::watchdog::within;
 
 /// Write a model, and a task for it, as files that other planners read

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use typelift::model::{GroundAtom, GroundCall, ParseConfig, Symbol};
+use typelift::words::count;
 use typelift::world::{FileError, Parser, Reset, Scene, TaskFile, TraceReader, World, write_file, write_task};
 use typelift_kitchen::{
     Difference, Kitchen as Simulator, KitchenTask, demonstrations, draw, faults, replay, serve, tasks, types_pddl,
@@ -14,7 +15,7 @@ use typelift_kitchen::{
 use crate::exit::Exit;
 use crate::failure::{Failure, or_one_of};
 use crate::quantities::parse_whole;
-use crate::style::{BAD, GOOD, count};
+use crate::style::{BAD, GOOD};
 
 /// The built-in kitchen simulator
 #[derive(Debug, clap::Args)]

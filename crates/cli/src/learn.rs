@@ -7,13 +7,14 @@ use std::path::PathBuf;
 use serde::Serialize;
 use typelift::learn::{self, Actor, LearnError, Options, learn_dataset};
 use typelift::model::{ClusterKey, Evidence, LearnedModel, LiftedAtom, ParseConfig, Symbol, Unexplained};
+use typelift::words::count;
 use typelift::world::{Dataset, ObjectTypes, TrajectoryContext, Unlisted, read_dataset, read_hierarchy, write_file};
 
 use crate::exit::Exit;
 use crate::failure::{Failure, or_one_of};
 use crate::files::{keep_inputs, warn};
 use crate::limits::{Clock, Limits};
-use crate::style::{HEAD, HINT, WARNING, count, wrapped};
+use crate::style::{HEAD, HINT, WARNING, wrapped};
 use crate::watchdog::within;
 
 /// Learn actions from demonstrations

@@ -3,11 +3,9 @@
 //! One file, or one folder, a subcommand. Data goes to standard output, everything else to standard error. Every way to end has its
 //! exit code, in [`exit`].
 
-mod account;
 mod columns;
 mod confirm;
 mod demo;
-mod describe;
 mod exit;
 mod export;
 mod failure;
@@ -20,7 +18,7 @@ mod memory;
 mod narrate;
 mod pddl;
 mod plan;
-mod plan_text;
+mod plan_file;
 mod planner_option;
 mod planning_options;
 mod quantities;

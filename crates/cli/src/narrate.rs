@@ -4,10 +4,10 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::time::{Duration, Instant};
 
-use typelift::agent::{Event, Observer, StepResult};
-use typelift::world::Verdict;
+use typelift::agent::{Event, Observer};
+use typelift::words::line;
 
-use crate::style::{BAD, DIM, GOOD, IMAGINED, WARNING, count};
+use crate::style::painted;
 
 /// Tells events to a person, writes them to a file, and measures planning.
 #[derive(Debug, Default)]
@@ -45,39 +45,9 @@ impl Observer for Narrator {
             }
         }
         if self.aloud
-            && let Some(line) = told(event)
+            && let Some(line) = line(event)
         {
-            anstream::eprintln!("{line}");
+            anstream::eprintln!("{}", painted(&line));
         }
     }
-}
-
-/// An event in one line.
-pub(crate) fn told(event: &Event) -> Option<String> {
-    Some(match event {
-        Event::PlanningStarted { .. } | Event::PlanningEnded { .. } | Event::Ended { .. } => return None,
-        Event::Proposed { proposal, plan } => {
-            let imagined = plan.steps.iter().filter(|step| step.imagined.is_some()).count();
-            let steps = count(plan.steps.len() as u64, "step");
-            let imagined = if imagined > 0 { format!(", {imagined} imagined") } else { String::new() };
-            format!("  proposal {proposal}: {steps}{imagined}")
-        }
-        Event::Stepped { step, call, imagined, result, reason, .. } => {
-            let mark = if *imagined { format!("  {IMAGINED}imagined{IMAGINED:#}") } else { String::new() };
-            if *result == StepResult::Tried(Verdict::AsExpected) {
-                format!("  {step:>3}  {call}{mark}  {GOOD}ok{GOOD:#}")
-            } else {
-                let reason = reason.as_ref().map(|reason| format!(": {reason}")).unwrap_or_default();
-                format!("  {step:>3}  {call}{mark}  {BAD}{}{BAD:#}{reason}", result.phrase())
-            }
-        }
-        Event::Retried { .. } => format!("       {DIM}again{DIM:#}"),
-        Event::Excluded { suspect, .. } => format!("       {WARNING}excluded{WARNING:#}: {suspect}"),
-        Event::Drifted { missing, .. } => match missing.strip_prefix("not ") {
-            Some(atom) => format!("       the world changed by itself: {atom} holds now"),
-            None => format!("       the world changed by itself: {missing} no longer holds"),
-        },
-        Event::LastResort { resort } => format!("       nothing left to try: {}", resort.phrase()),
-        Event::NoOtherPlan { .. } => "       there is no other plan".to_owned(),
-    })
 }

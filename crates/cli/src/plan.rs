@@ -5,11 +5,11 @@ use std::mem::ManuallyDrop;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use serde::Serialize;
 use typelift::agent::{Options, Proposal, ProposeError, propose};
 use typelift::imagine;
 use typelift::model::{ActionModel, Budget, Plan as FoundPlan, Stop, Task};
 use typelift::plan::{Explanation, Outcome, Restrictions};
+use typelift::words::{AnswerView, count, ending, numbered_steps, plan_size};
 use typelift::world::write_file;
 
 use crate::exit::Exit;
@@ -17,9 +17,9 @@ use crate::failure::Failure;
 use crate::files::keep_inputs;
 use crate::limits::{Clock, Interrupt, Limits};
 use crate::memory::memory_held_from_now;
-use crate::plan_text::{imagined_note, numbered_steps, plan_file, plan_size};
+use crate::plan_file::plan_file;
 use crate::planning_options::PlanningOptions;
-use crate::style::{BAD, HEAD, HINT, count};
+use crate::style::{BAD, HEAD, HINT, painted};
 use crate::watchdog::watched;
 
 /// Where the plan for a PDDL problem is written unless the user says otherwise, as Fast Downward does.
@@ -57,36 +57,6 @@ pub(crate) struct Plan {
     output: Option<PathBuf>,
     #[command(flatten)]
     planning: PlanningOptions,
-}
-
-/// What is printed with `--json`.
-#[derive(Default, Serialize)]
-struct Answer {
-    outcome: &'static str,
-    plans: Vec<PlanJson>,
-    imagined_actions: Vec<String>,
-    ground_actions: u64,
-    expansions: u64,
-    evaluations: u64,
-    bytes: u64,
-    seconds: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    explanation: Option<String>,
-}
-
-#[derive(Serialize)]
-struct PlanJson {
-    cost: u64,
-    steps: Vec<StepJson>,
-}
-
-#[derive(Serialize)]
-struct StepJson {
-    action: String,
-    name: String,
-    args: Vec<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    imagined: Option<String>,
 }
 
 /// What there is when the first search has ended.
@@ -144,16 +114,17 @@ impl Plan {
             Outcome::Stopped(stop) => (*stop).into(),
             _ => Exit::Unsolvable,
         };
-        // Of a search that was ended early nothing can be said.
-        let searched = matches!(last, Outcome::Unsolvable | Outcome::NoMorePlans);
-        let explanation = (plans.is_empty() && searched).then(|| proposal.explain());
         if self.planning.json {
-            let answer = answer(&last, &plans, &proposal, explanation.as_ref(), memory(), clock.elapsed() - read);
+            let seconds = (clock.elapsed() - read).as_secs_f64();
+            let answer = AnswerView::of(&proposal, &plans, &last, memory(), seconds);
             writeln!(out, "{}", serde_json::to_string_pretty(&answer).unwrap_or_default())?;
             return Ok(exit);
         }
         out.flush()?;
         if plans.is_empty() {
+            // Of a search that was ended early nothing can be said.
+            let searched = matches!(last, Outcome::Unsolvable | Outcome::NoMorePlans);
+            let explanation = searched.then(|| proposal.explain());
             self.report_none(&last, explanation.as_ref(), &model, &task, &budget);
         } else if !quiet {
             self.report_end(&last, plans.len());
@@ -216,7 +187,9 @@ impl Plan {
         };
         let size = plan_size(plan);
         writeln!(out, "{HEAD}{head}{size}, {} ms{expansions}{HEAD:#}", took.as_millis())?;
-        write!(out, "{}", numbered_steps(plan, &model.hierarchy))?;
+        for line in numbered_steps(plan, &model.hierarchy) {
+            writeln!(out, "{}", painted(&line))?;
+        }
         Ok(())
     }
 
@@ -293,50 +266,10 @@ impl Plan {
 /// Says that the search did not even begin.
 fn say_stop(stop: Stop, json: bool, took: Duration) -> Result<Exit, Failure> {
     if json {
-        let answer = Answer { outcome: stop.word(), seconds: took.as_secs_f64(), ..Answer::default() };
+        let answer = AnswerView::stopped(stop, took.as_secs_f64());
         writeln!(anstream::stdout(), "{}", serde_json::to_string_pretty(&answer).unwrap_or_default())?;
     } else {
         anstream::eprintln!("{BAD}no plan{BAD:#}: {}", ProposeError::Stopped(stop));
     }
     Ok(stop.into())
-}
-
-/// Why the search went no further.
-fn ending(outcome: &Outcome) -> String {
-    match outcome {
-        Outcome::Solved(_) => "found".to_owned(),
-        Outcome::Unsolvable | Outcome::NoMorePlans => "everything was searched".to_owned(),
-        Outcome::Stopped(stop) => stop.to_string(),
-    }
-}
-
-fn answer(
-    outcome: &Outcome,
-    plans: &[FoundPlan],
-    proposal: &Proposal,
-    explanation: Option<&Explanation>,
-    bytes: u64,
-    took: Duration,
-) -> Answer {
-    let report = proposal.report();
-    let step = |step: &typelift::model::Step| StepJson {
-        action: step.action.to_string(),
-        name: step.call.name.to_string(),
-        args: step.call.args.iter().map(ToString::to_string).collect(),
-        imagined: imagined_note(step, &proposal.model.hierarchy),
-    };
-    Answer {
-        outcome: if plans.is_empty() { outcome.word() } else { "solved" },
-        plans: plans
-            .iter()
-            .map(|plan| PlanJson { cost: plan.cost(), steps: plan.steps.iter().map(step).collect() })
-            .collect(),
-        imagined_actions: proposal.imagination.actions.iter().map(|a| a.name.to_string()).collect(),
-        ground_actions: report.ground_actions,
-        expansions: report.expansions,
-        evaluations: report.evaluations,
-        bytes,
-        seconds: took.as_secs_f64(),
-        explanation: explanation.map(ToString::to_string),
-    }
 }

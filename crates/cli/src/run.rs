@@ -10,10 +10,10 @@ use clap::ValueEnum;
 use typelift::agent::{Ending, Episode, EpisodeError, Experience, Options, RunError, run};
 use typelift::bridge::Bridge;
 use typelift::model::{Plan, State, Stop, Symbol, Task};
+use typelift::words::{AccountView, BrokenOffView, summary};
 use typelift::world::{FileError, Parser, Reset, Scene, TaskFile, World, WorldError};
 use typelift_kitchen::Kitchen;
 
-use crate::account::{broken_off, report, summary};
 use crate::confirm::{Which, confirm};
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -22,7 +22,7 @@ use crate::limits::{Clock, Interrupt};
 use crate::narrate::Narrator;
 use crate::planning_options::PlanningOptions;
 use crate::quantities::{parse_duration, parse_whole};
-use crate::style::HEAD;
+use crate::style::{HEAD, painted};
 
 /// Expansions of one search, unless the user says otherwise: an agent that acts must not think for ever.
 const EXPANSIONS: u64 = 200_000;
@@ -152,7 +152,8 @@ impl Run {
             }
             let is_bad_input = matches!(ran, Err(RunError::Episode(EpisodeError::Goal(_))));
             if let (true, false, Err(error)) = (self.planning.json, is_bad_input, &ran) {
-                writeln!(out, "{}", broken_off(&name, &error.to_string()))?;
+                let view = BrokenOffView::of(&name, error.to_string());
+                writeln!(out, "{}", serde_json::to_string(&view).unwrap_or_default())?;
             }
             let account = ran.map_err(|error| Failure::from(error).in_file(path))?;
             if let Some(error) = narrator.events_error.take() {
@@ -161,10 +162,12 @@ impl Run {
             experience = episode.experience().clone();
             all_solved &= account.solved();
             if self.planning.json {
-                let report = report(&name, &account, &episode, narrator.planning.as_secs_f64());
-                writeln!(out, "{}", serde_json::to_string(&report).unwrap_or_default())?;
+                let view = AccountView::of(&name, &account, &episode, narrator.planning.as_secs_f64());
+                writeln!(out, "{}", serde_json::to_string(&view).unwrap_or_default())?;
             } else {
-                write!(out, "{}", summary(&name, &account, narrator.planning.as_millis()))?;
+                for line in summary(&name, &account, narrator.planning.as_millis()) {
+                    writeln!(out, "{}", painted(&line))?;
+                }
             }
             out.flush()?;
             if account.ending == Ending::Stopped(Stop::Cancelled) {

@@ -6,13 +6,13 @@ use std::path::PathBuf;
 use typelift::learn::{self, learn};
 use typelift::model::{LearnedModel, Symbol};
 use typelift::pddl::{ExportOptions, Level, export};
+use typelift::words::{count, describe_action, describe_axiom};
 
-use crate::describe::{describe, describe_axiom};
 use crate::exit::Exit;
 use crate::failure::{Failure, or_one_of};
 use crate::files::{ModelInput, domain_name, read_model_input};
 use crate::learn::refused_merges;
-use crate::style::count;
+use crate::style::described;
 
 /// Show what a model holds, and what each action rests on
 #[derive(Debug, clap::Args)]
@@ -63,10 +63,10 @@ impl Show {
                     writeln!(out, "{line}\n")?;
                 }
                 for action in &model.actions {
-                    writeln!(out, "{}", describe(action, &model, None))?;
+                    writeln!(out, "{}", described(&describe_action(action, &model, None)))?;
                 }
                 for axiom in &model.axioms {
-                    writeln!(out, "{}", describe_axiom(axiom, &model))?;
+                    writeln!(out, "{}", described(&describe_axiom(axiom, &model)))?;
                 }
             }
             Some(name) => {
@@ -74,7 +74,7 @@ impl Show {
                     let names: Vec<Symbol> = model.actions.iter().map(|a| a.name.clone()).collect();
                     Failure::bad_input(format!("the model has no action `{name}`")).with_hint(or_one_of(name, &names))
                 })?;
-                write!(out, "{}", describe(action, &model, Some(&evidence)))?;
+                write!(out, "{}", described(&describe_action(action, &model, Some(&evidence))))?;
             }
         }
         Ok(Exit::Success)

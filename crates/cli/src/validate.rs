@@ -11,7 +11,7 @@ use typelift::world::{FileError, read_text};
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::limits::{Clock, Interrupt, Limits};
-use crate::plan_text::calls_of_plan;
+use crate::plan_file::calls_of_plan;
 use crate::planning_options::ModelArguments;
 use crate::style::{BAD, GOOD};
 use crate::watchdog::within;

@@ -51,6 +51,16 @@ impl Plan {
         self.steps.is_empty()
     }
 
+    /// Whether each step costs 1.
+    pub fn has_unit_costs(&self) -> bool {
+        self.steps.iter().all(|step| step.cost == 1)
+    }
+
+    /// The number of imagined steps.
+    pub fn imagined_steps(&self) -> usize {
+        self.steps.iter().filter(|step| step.imagined.is_some()).count()
+    }
+
     /// The number of different imagined actions that it rests on.
     pub fn imagined_actions(&self) -> usize {
         let mut names: Vec<&Symbol> =

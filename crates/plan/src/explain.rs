@@ -10,6 +10,7 @@ use crate::reach::Reachable;
 
 /// What stands between an action and the atom that it could achieve.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Misfit {
     /// An object has a type that the action does not take.
@@ -57,6 +58,7 @@ impl fmt::Display for Misfit {
 
 /// The action that comes nearest to achieving an atom.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Nearest {
     /// Its name.
     pub action: Symbol,
@@ -66,6 +68,7 @@ pub struct Nearest {
 
 /// A goal atom that cannot be reached even if nothing is ever deleted.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct UnreachableGoal {
     /// The atom.
     pub atom: GroundAtom,
@@ -77,6 +80,7 @@ pub struct UnreachableGoal {
 
 /// Why there is no plan.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Explanation {
     /// Some goal atoms cannot be reached at all.

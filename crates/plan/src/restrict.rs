@@ -8,6 +8,7 @@ use typelift_model::{ActionSchema, GroundAction, GroundAtom, GroundCall, Hierarc
 
 /// An object that may not take part in actions.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Exclusion {
     /// The object.
     pub object: Symbol,
@@ -27,6 +28,7 @@ impl fmt::Display for Exclusion {
 
 /// Types of which no object may be an argument of a call: one type at one place, or several that may not meet.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct TypeExclusion {
     /// In actions of this call name,
     pub call: Symbol,

@@ -12,6 +12,7 @@
 //! | [`plan`]    | grounding, landmarks, heuristic search, why there is no plan                      |
 //! | [`check`]   | replays plans by the plainest semantics                                           |
 //! | [`agent`]   | an episode: propose, act, monitor, exclude, retry, replan                         |
+//! | [`words`]   | what is said of plans, answers, accounts and events, for people and programs      |
 //! | [`bridge`]  | an environment in a child process                                                 |
 //!
 //! From two demonstrations to a plan for something never shown:
@@ -70,4 +71,5 @@ pub use typelift_learn as learn;
 pub use typelift_model as model;
 pub use typelift_pddl as pddl;
 pub use typelift_plan as plan;
+pub use typelift_words as words;
 pub use typelift_world as world;

@@ -3,6 +3,7 @@
 use std::io::{Read, Write};
 use std::process::{Command, Stdio};
 use std::time::Duration;
+use typelift::words::count;
 
 use typelift_lab::{
     Allowance, Conduct, Growth, GrowthResult, LabError, Measurement, Point, Stopper, carry_out, measure,
@@ -15,7 +16,7 @@ use crate::failure::Failure;
 use crate::limits::Clock;
 use crate::memory::memory_held_from_now;
 use crate::quantities::{parse_bytes, parse_duration};
-use crate::style::{HEAD, count, wrapped};
+use crate::style::{HEAD, wrapped};
 
 /// How time and memory grow with objects, goals and demonstrations
 #[derive(Debug, clap::Args)]

@@ -4,11 +4,12 @@ use std::collections::BTreeSet;
 use std::io::IsTerminal;
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
+use typelift::words::count;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use typelift_lab::Progress;
 
-use crate::style::{HINT, count};
+use crate::style::HINT;
 
 /// A bar on standard error; nothing if that is no terminal.
 #[derive(Debug)]

@@ -9,12 +9,13 @@ use typelift::pddl::{
     Definition, DefinitionKind, Document, Domain, PddlError, Problem, Sexpr, Trajectory, read_plan, read_problem,
     read_trajectory, required_by_domain, required_by_problem, undeclared_requirements,
 };
+use typelift::words::count;
 use typelift::world::{FileError, read_text};
 
 use super::domains::Domains;
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::style::{BAD, WARNING, count};
+use crate::style::{BAD, WARNING};
 
 /// What a file is, as far as its beginning tells.
 #[derive(Debug, Clone)]

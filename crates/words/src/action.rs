@@ -1,60 +1,95 @@
-//! Actions and axioms in words.
+//! Actions and axioms in words, as labelled rows.
 
 use std::collections::BTreeMap;
 
-use typelift::model::{
+use serde::Serialize;
+use typelift_model::{
     ActionModel, ActionSchema, Axiom, Cost, Effect, Evidence, Hierarchy, LiftedAtom, Literal, Parameter, Provenance,
     Support, Symbol, Term, describe_replacements, schema_name,
 };
 
-use crate::style::{DIM, HEAD, count, wrapped};
+use crate::text::count;
 
-/// An action in words: parameters, what the environment is told, preconditions, effects, what it rests on; with the
-/// evidence, also where that was seen.
-pub(crate) fn describe(action: &ActionSchema, model: &ActionModel, evidence: Option<&Evidence>) -> String {
+/// A labelled row of a description.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Row {
+    /// What the row is about: `parameters`, `call`, `needs`, `adds`, `deletes`, `costs`, `merged`, `because`, `seen`.
+    pub label: &'static str,
+    /// Words, to be broken into lines between them; never empty.
+    pub words: Vec<String>,
+}
+
+/// An action or an axiom, described.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Description {
+    /// Its name; of an axiom the atom that it derives.
+    pub name: String,
+    /// Where it comes from, in one line.
+    pub origin: String,
+    /// What it needs and does, and what it rests on.
+    pub rows: Vec<Row>,
+}
+
+impl Description {
+    /// Adds a row; none if there are no words.
+    fn row(&mut self, label: &'static str, words: impl IntoIterator<Item = String>) {
+        let words: Vec<String> = words.into_iter().collect();
+        if !words.is_empty() {
+            self.rows.push(Row { label, words });
+        }
+    }
+}
+
+/// An action of a model in words: parameters, what the environment is told, preconditions, effects, what it rests on; with
+/// the evidence, also where that was seen.
+pub fn describe_action(action: &ActionSchema, model: &ActionModel, evidence: Option<&Evidence>) -> Description {
     let h = &model.hierarchy;
-    let mut text = format!("{HEAD}{}{HEAD:#}  {}\n", action.name, headline(action, &model.hierarchy));
-    let parameters: Vec<String> = action.parameters.iter().map(|p| format!("?{} - {}", p.name, h.name(p.ty))).collect();
-    row(&mut text, "parameters", &parameters);
+    let mut text = Description { name: action.name.to_string(), origin: origin(action, h), rows: Vec::new() };
+    text.row("parameters", action.parameters.iter().map(|p| format!("?{} - {}", p.name, h.name(p.ty))));
     let written = Written { parameters: action.parameters.iter().collect() };
     let args: Vec<String> = action.call.args.iter().map(|term| written.term(term)).collect();
-    row(&mut text, "call", &[format!("{}({})", action.call.name, args.join(", "))]);
+    text.row("call", [format!("{}({})", action.call.name, args.join(", "))]);
     let mut needs: Vec<String> = action.preconditions.iter().map(|l| written.literal(l)).collect();
     // Of learned actions all parameters differ.
     if action.provenance == Provenance::Given {
         let term = |i: u32| written.term(&Term::Param(i));
         needs.extend(action.distinct.iter().map(|&(a, b)| format!("{}≠{}", term(a), term(b))));
     }
-    row(&mut text, "needs", &needs);
+    text.row("needs", needs);
     for (label, adds) in [("adds", true), ("deletes", false)] {
         let effects = action.effects.iter().filter(|e| e.literal.positive == adds);
         let (plain, other): (Vec<&Effect>, Vec<&Effect>) = effects.partition(|effect| effect.is_unconditional());
-        let atoms = plain.into_iter().map(|e| written.literal(&Literal::positive(e.literal.atom.clone())));
-        row(&mut text, label, &atoms.collect::<Vec<_>>());
+        text.row(label, plain.into_iter().map(|e| written.literal(&Literal::positive(e.literal.atom.clone()))));
         for effect in other {
-            row(&mut text, label, &conditional(effect, action, h));
+            text.row(label, conditional(effect, action, h));
         }
     }
     if action.cost != Cost::UNIT {
         let fixed = (action.cost.fixed > 0 || action.cost.functions.is_empty()).then(|| action.cost.fixed.to_string());
         let functions = action.cost.functions.iter().map(|f| written.atom(f));
-        row(&mut text, "costs", &[fixed.into_iter().chain(functions).collect::<Vec<_>>().join(" + ")]);
+        text.row("costs", [fixed.into_iter().chain(functions).collect::<Vec<_>>().join(" + ")]);
     }
-    let support = action.provenance.support();
-    if support.len() > 1 {
-        let merged = support.iter().map(|s| format!("{} {}", individual_name(s, model), s.observations));
-        row(&mut text, "merged", &merged.collect::<Vec<_>>());
-        row(&mut text, "because", &because(action, model));
-    }
-    if let Some(evidence) = evidence {
-        for support in support {
-            let witnesses = evidence.clusters.get(&*support.cluster).map(|c| &c.witnesses);
+    text.add_support(action, model, evidence);
+    text
+}
+
+impl Description {
+    /// What an action rests on and, with the evidence, where that was seen.
+    fn add_support(&mut self, action: &ActionSchema, model: &ActionModel, evidence: Option<&Evidence>) {
+        let support = action.provenance.support();
+        if support.len() > 1 {
+            self.row("merged", support.iter().map(|s| format!("{} {}", individual_name(s, model), s.observations)));
+            self.row("because", because(action, model));
+        }
+        for support in support.iter().filter(|_| evidence.is_some()) {
+            let witnesses = evidence.and_then(|e| e.clusters.get(&*support.cluster)).map(|c| &c.witnesses);
             let places = witnesses.into_iter().flatten().map(|w| format!("{} step {}", w.file, w.step));
             let places: Vec<String> = places.collect();
-            row(&mut text, "seen", &[format!("{}: {}", individual_name(support, model), places.join(", "))]);
+            self.row("seen", [format!("{}: {}", individual_name(support, model), places.join(", "))]);
         }
     }
-    text
 }
 
 /// Lifted things with the names of their parameters.
@@ -99,26 +134,16 @@ fn conditional(effect: &Effect, action: &ActionSchema, hierarchy: &Hierarchy) ->
 }
 
 /// How a derived predicate follows, in words.
-pub(crate) fn describe_axiom(axiom: &Axiom, model: &ActionModel) -> String {
+pub fn describe_axiom(axiom: &Axiom, model: &ActionModel) -> Description {
     let written = Written { parameters: axiom.parameters.iter().collect() };
-    let mut text = format!("{HEAD}{}{HEAD:#}  derived\n", written.atom(&axiom.head));
-    let of_type = |p: &Parameter| format!("?{} - {}", p.name, model.hierarchy.name(p.ty));
-    row(&mut text, "for all", &axiom.parameters.iter().map(of_type).collect::<Vec<_>>());
-    row(&mut text, "if", &axiom.body.iter().map(|literal| written.literal(literal)).collect::<Vec<_>>());
+    let mut text = Description { name: written.atom(&axiom.head), origin: "derived".to_owned(), rows: Vec::new() };
+    text.row("for all", axiom.parameters.iter().map(|p| format!("?{} - {}", p.name, model.hierarchy.name(p.ty))));
+    text.row("if", axiom.body.iter().map(|literal| written.literal(literal)));
     text
 }
 
-/// A labelled line; nothing if there are no words.
-fn row(text: &mut String, label: &str, words: &[String]) {
-    if words.is_empty() {
-        return;
-    }
-    let body = wrapped(words.iter().map(String::as_str), 14, 80);
-    text.push_str(&format!("  {DIM}{label:<12}{DIM:#}{body}\n"));
-}
-
 /// Where an action comes from, in one line.
-pub(crate) fn headline(action: &ActionSchema, hierarchy: &Hierarchy) -> String {
+fn origin(action: &ActionSchema, hierarchy: &Hierarchy) -> String {
     let observations = count(action.provenance.observations(), "observation");
     match &action.provenance {
         Provenance::Given => "given".to_owned(),
@@ -136,7 +161,7 @@ pub(crate) fn headline(action: &ActionSchema, hierarchy: &Hierarchy) -> String {
 }
 
 /// The name that an individual action over this cluster has.
-pub(crate) fn individual_name(support: &Support, model: &ActionModel) -> String {
+pub fn individual_name(support: &Support, model: &ActionModel) -> String {
     let key = &support.cluster;
     let is_actor = |name: &Symbol| model.hierarchy.id(name.as_str()).is_some_and(|ty| model.is_actor(ty));
     schema_name(&key.action, key.types.iter().map(|name| (name, is_actor(name))))

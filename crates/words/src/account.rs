@@ -1,0 +1,196 @@
+//! How an episode went.
+
+use serde::Serialize;
+use typelift_agent::{Account, Ending, Episode, Failure, StepResult, Suspect};
+use typelift_model::{GroundCall, Plan, Symbol};
+use typelift_plan::Explanation;
+
+use crate::plan::plan_size;
+use crate::text::{Role, Text, count};
+
+/// The account of a task.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct AccountView {
+    /// The task's name.
+    pub task: String,
+    /// Whether the goal was seen to hold.
+    pub solved: bool,
+    /// The [word](Ending::word) for how it ended.
+    pub ending: &'static str,
+    /// Why it was not solved, in words.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub why: Option<String>,
+    /// Why there was nothing left to try, as data.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reasons: Option<Explanation>,
+    /// Plans proposed, the successful one included.
+    pub proposals: u64,
+    /// Actions executed, retries included.
+    pub actions: u64,
+    /// The number of steps of the plan that worked.
+    pub plan_length: Option<usize>,
+    /// How many of them were imagined.
+    pub imagined_steps: Option<usize>,
+    /// Seconds spent planning.
+    pub planning_seconds: f64,
+    /// Nodes expanded by all searches.
+    pub expansions: u64,
+    /// Ground actions of the largest search.
+    pub ground_actions: u64,
+    /// What failed, in order.
+    pub failures: Vec<FailureView>,
+    /// What is avoided after the task.
+    pub excluded: Vec<ExclusionView>,
+}
+
+/// A step that failed.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct FailureView {
+    /// The proposal's number, from 1.
+    pub proposal: u64,
+    /// The step's number in it, from 1.
+    pub step: usize,
+    /// The name of the action in the model.
+    pub action: Symbol,
+    /// What the environment was told.
+    pub call: GroundCall,
+    /// What came of it.
+    pub result: StepResult,
+    /// The environment's or the person's reason, if given.
+    pub reason: Option<String>,
+    /// Whether the step was imagined.
+    pub imagined: bool,
+}
+
+/// Something that is avoided.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct ExclusionView {
+    /// What.
+    #[serde(flatten)]
+    pub suspect: Suspect,
+    /// The failure that led to it, in words.
+    pub reason: String,
+    /// How many failures led to it.
+    pub count: u64,
+}
+
+impl AccountView {
+    /// The view of a task's account; `planning_seconds` is for the clock of whoever ran the episode to say.
+    pub fn of(task: &str, account: &Account, episode: &Episode, planning_seconds: f64) -> Self {
+        let plan = account.plan.as_ref().filter(|_| account.solved());
+        let suspects = episode.experience().suspects(episode.instance());
+        Self {
+            task: task.to_owned(),
+            solved: account.solved(),
+            ending: account.ending.word(),
+            why: why_not(&account.ending),
+            reasons: match &account.ending {
+                Ending::NoPlan(explanation) => Some(explanation.clone()),
+                _ => None,
+            },
+            proposals: account.proposals,
+            actions: account.actions,
+            plan_length: plan.map(Plan::len),
+            imagined_steps: plan.map(Plan::imagined_steps),
+            planning_seconds,
+            expansions: account.expansions,
+            ground_actions: account.ground_actions,
+            failures: account.failures.iter().map(FailureView::of).collect(),
+            excluded: suspects
+                .into_iter()
+                .map(|(suspect, why)| ExclusionView { suspect, reason: why.reason, count: why.count })
+                .collect(),
+        }
+    }
+}
+
+impl FailureView {
+    fn of(failure: &Failure) -> Self {
+        Self {
+            proposal: failure.proposal,
+            step: failure.step,
+            action: failure.action.clone(),
+            call: failure.call.clone(),
+            result: failure.result,
+            reason: failure.reason.clone(),
+            imagined: failure.imagined,
+        }
+    }
+}
+
+/// What there is of a task whose environment or planner failed: no account.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct BrokenOffView {
+    /// The task's name.
+    pub task: String,
+    /// It is not solved.
+    pub solved: bool,
+    /// `broken_off`.
+    pub ending: &'static str,
+    /// What failed, in words.
+    pub why: String,
+}
+
+impl BrokenOffView {
+    /// The view of a task that was broken off.
+    pub fn of(task: &str, why: String) -> Self {
+        Self { task: task.to_owned(), solved: false, ending: "broken_off", why }
+    }
+}
+
+/// Why the goal was not seen to hold, if it was not.
+fn why_not(ending: &Ending) -> Option<String> {
+    Some(match ending {
+        Ending::Solved => return None,
+        Ending::NoPlan(explanation) => format!("nothing left to try: {explanation}"),
+        Ending::Circular => "the plan that is left went as expected before, from this very state, and did not lead to \
+                             the goal: something happens besides what the model says"
+            .to_owned(),
+        Ending::ProposalLimit(n) => format!("gave up after {}", count(*n, "proposal")),
+        Ending::Stopped(stop) => stop.to_string(),
+    })
+}
+
+/// The account of a task in lines: how it ended, what failed and was excluded, and why it is not solved.
+pub fn summary(task: &str, account: &Account, planning_ms: u128) -> Vec<Text> {
+    let mut lines = vec![headline(task, account, planning_ms)];
+    for failure in &account.failures {
+        let place = format!("proposal {}, step {}", failure.proposal, failure.step);
+        let reason = failure.reason.as_ref().map(|reason| format!(" ({reason})")).unwrap_or_default();
+        let what = format!("  {}: {}{reason}", failure.call, failure.result.phrase());
+        lines.push(Text::new().plain("  ").with(Role::Aside, place).plain(what));
+        lines.extend(failure.suspects.iter().map(|suspect| Text::new().plain(format!("    excluded {suspect}"))));
+    }
+    if account.resorts.lifted() {
+        lines.push(Text::new().plain("  exclusions were lifted, since nothing else was left"));
+    }
+    if account.resorts.relaxed() {
+        let what = "  actions were used although some of their effects held already, since nothing else was left";
+        lines.push(Text::new().plain(what));
+    }
+    let why = why_not(&account.ending);
+    lines.extend(why.iter().flat_map(|why| why.lines()).map(|line| Text::new().plain(format!("  {line}"))));
+    lines
+}
+
+fn headline(task: &str, account: &Account, planning_ms: u128) -> Text {
+    let counted = format!(
+        "{}, {} executed, planned in {planning_ms} ms",
+        count(account.proposals, "proposal"),
+        count(account.actions, "action")
+    );
+    let line = Text::new().with(Role::Heading, task).plain("  ");
+    match &account.plan {
+        Some(plan) if account.solved() && account.proposals == 0 && plan.is_empty() => {
+            line.with(Role::Good, "solved").plain(": the goal held already")
+        }
+        Some(plan) if account.solved() => {
+            line.with(Role::Good, "solved").plain(format!(": {}, {counted}", plan_size(plan)))
+        }
+        _ => line.with(Role::Bad, "not solved").plain(format!(": {counted}")),
+    }
+}

@@ -1,0 +1,72 @@
+//! The answer to a planning question: how the search ended, the plans, and why there is none.
+
+use serde::Serialize;
+use typelift_agent::Proposal;
+use typelift_model::{Plan, Stop, Symbol};
+use typelift_plan::{Explanation, Outcome};
+
+use crate::plan::PlanView;
+
+/// The answer to a planning question.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct AnswerView {
+    /// `solved` if there is a plan; else the [word](Outcome::word) for how the search ended.
+    pub outcome: &'static str,
+    /// The plans, in the order in which they were found.
+    pub plans: Vec<PlanView>,
+    /// The names of the actions that were imagined, whether a plan uses them or not.
+    pub imagined_actions: Vec<Symbol>,
+    /// Ground actions.
+    pub ground_actions: u64,
+    /// Nodes expanded.
+    pub expansions: u64,
+    /// Nodes evaluated by heuristics.
+    pub evaluations: u64,
+    /// Bytes that were held in the end, beyond what was held before.
+    pub bytes: u64,
+    /// Seconds from when all was read.
+    pub seconds: f64,
+    /// Why there is no plan, a line for each reason; only where everything was searched.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub explanation: Option<String>,
+    /// The same as data.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reasons: Option<Explanation>,
+}
+
+impl AnswerView {
+    /// The answer of a proposal that has given these plans, and then ended in `last`. Memory and
+    /// time are for whoever can measure them to say.
+    pub fn of(proposal: &Proposal, plans: &[Plan], last: &Outcome, bytes: u64, seconds: f64) -> Self {
+        let report = proposal.report();
+        let searched = matches!(last, Outcome::Unsolvable | Outcome::NoMorePlans);
+        let explanation = (plans.is_empty() && searched).then(|| proposal.explain());
+        Self {
+            outcome: if plans.is_empty() { last.word() } else { "solved" },
+            plans: plans.iter().map(|plan| PlanView::of(plan, &proposal.model.hierarchy)).collect(),
+            imagined_actions: proposal.imagination.actions.iter().map(|action| action.name.clone()).collect(),
+            ground_actions: report.ground_actions,
+            expansions: report.expansions,
+            evaluations: report.evaluations,
+            bytes,
+            seconds,
+            explanation: explanation.as_ref().map(Explanation::to_string),
+            reasons: explanation,
+        }
+    }
+
+    /// The answer where the budget ended planning before the search began.
+    pub fn stopped(stop: Stop, seconds: f64) -> Self {
+        Self { outcome: stop.word(), seconds, ..Self::default() }
+    }
+}
+
+/// Why a search went no further, in words.
+pub fn ending(outcome: &Outcome) -> String {
+    match outcome {
+        Outcome::Solved(_) => "found".to_owned(),
+        Outcome::Unsolvable | Outcome::NoMorePlans => "everything was searched".to_owned(),
+        Outcome::Stopped(stop) => stop.to_string(),
+    }
+}

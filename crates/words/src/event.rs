@@ -1,0 +1,42 @@
+//! What happens during an episode, a line each. As data, an [`Event`] is its own wire type.
+
+use typelift_agent::{Event, StepResult};
+use typelift_world::Verdict;
+
+use crate::plan::imagined_part;
+use crate::text::{Role, Text, count};
+
+/// An event in one line; `None` for what people need not be told: when planning begins and ends, and the end of it all,
+/// which the [summary](crate::summary) tells.
+pub fn line(event: &Event) -> Option<Text> {
+    let indented = || Text::new().plain("       ");
+    Some(match event {
+        Event::PlanningStarted { .. } | Event::PlanningEnded { .. } | Event::Ended { .. } => return None,
+        Event::Proposed { proposal, plan } => {
+            let imagined = plan.steps.iter().filter(|step| step.imagined.is_some()).count() as u64;
+            let steps = count(plan.steps.len() as u64, "step");
+            Text::new().plain(format!("  proposal {proposal}: {steps}{}", imagined_part(imagined)))
+        }
+        Event::Stepped { step, call, imagined, result, reason, .. } => {
+            let mut line = Text::new().plain(format!("  {step:>3}  {call}"));
+            if *imagined {
+                line = line.plain("  ").with(Role::Imagined, "imagined");
+            }
+            line = line.plain("  ");
+            if *result == StepResult::Tried(Verdict::AsExpected) {
+                line.with(Role::Good, "ok")
+            } else {
+                let reason = reason.as_ref().map(|reason| format!(": {reason}"));
+                line.with(Role::Bad, result.phrase()).plain(reason.unwrap_or_default())
+            }
+        }
+        Event::Retried { .. } => indented().with(Role::Aside, "again"),
+        Event::Excluded { suspect, .. } => indented().with(Role::Warning, "excluded").plain(format!(": {suspect}")),
+        Event::Drifted { missing, .. } => indented().plain(match missing.strip_prefix("not ") {
+            Some(atom) => format!("the world changed by itself: {atom} holds now"),
+            None => format!("the world changed by itself: {missing} no longer holds"),
+        }),
+        Event::LastResort { resort } => indented().plain(format!("nothing left to try: {}", resort.phrase())),
+        Event::NoOtherPlan { .. } => indented().plain("there is no other plan"),
+    })
+}

@@ -1,0 +1,29 @@
+//! What is said of plans, answers, actions, accounts and events: words for people, and wire types for programs.
+//!
+//! A command line, a notebook and a page show the same things. What they say stands here, once; they only lay it out
+//! and paint it. Each thing has a *view*, which serde writes and of which there is a JSON Schema (feature `schema`), and,
+//! where people read it as a line, a [`Text`] whose parts have [roles](Role).
+//!
+//! | file             | what it speaks of                                       |
+//! |------------------|---------------------------------------------------------|
+//! | `text.rs`        | text in parts, and how they are counted                 |
+//! | `plan.rs`        | plans and their steps                                   |
+//! | `answer.rs`      | the answer to a planning question                       |
+//! | `action.rs`      | actions and axioms of a model                           |
+//! | `account.rs`     | how an episode went                                     |
+//! | `event.rs`       | what happens during an episode                          |
+#![deny(missing_docs)]
+
+mod account;
+mod action;
+mod answer;
+mod event;
+mod plan;
+mod text;
+
+pub use account::{AccountView, BrokenOffView, ExclusionView, FailureView, summary};
+pub use action::{Description, Row, describe_action, describe_axiom, individual_name};
+pub use answer::{AnswerView, ending};
+pub use event::line;
+pub use plan::{PlanView, StepView, imagined_note, numbered_steps, plan_size};
+pub use text::{Role, Span, Text, count};

@@ -1,0 +1,81 @@
+//! Text of which each part has a role: a terminal paints it, a page gives it a class, and without either it reads the
+//! same, since a role never carries meaning alone.
+
+use std::fmt;
+
+use serde::Serialize;
+
+/// What a part of a text is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Role {
+    /// Plain text.
+    Plain,
+    /// A heading, or the name of what a line is about.
+    Heading,
+    /// Of less weight than the rest.
+    Aside,
+    /// Something went well.
+    Good,
+    /// Something went wrong.
+    Bad,
+    /// Something rests on imagination.
+    Imagined,
+    /// Something to be aware of.
+    Warning,
+}
+
+/// A part of a text.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Span {
+    /// What it is.
+    pub role: Role,
+    /// What it says.
+    pub text: String,
+}
+
+/// Text in parts; displayed, the parts follow each other without anything in between.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Hash, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(transparent)]
+pub struct Text(pub Vec<Span>);
+
+impl Text {
+    /// No text.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// The same with a part after it; nothing is added for an empty one.
+    #[must_use]
+    pub fn with(mut self, role: Role, text: impl Into<String>) -> Self {
+        let text = text.into();
+        if !text.is_empty() {
+            self.0.push(Span { role, text });
+        }
+        self
+    }
+
+    /// The same with plain text after it.
+    #[must_use]
+    pub fn plain(self, text: impl Into<String>) -> Self {
+        self.with(Role::Plain, text)
+    }
+}
+
+impl fmt::Display for Text {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.iter().try_for_each(|span| f.write_str(&span.text))
+    }
+}
+
+/// `1 step`, `2 steps`.
+///
+/// ```
+/// assert_eq!(typelift_words::count(2, "step"), "2 steps");
+/// ```
+pub fn count(n: u64, singular: &str) -> String {
+    format!("{n} {singular}{}", if n == 1 { "" } else { "s" })
+}
