@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use proptest::prelude::*;
 use typelift::learn::observe;
-use typelift::model::{ClusterKey, Evidence, GroundAtom, GroundCall, Hierarchy, State, Symbol, TypeId};
+use typelift::model::{ClusterKey, GroundAtom, GroundCall, Hierarchy, Observations, State, Symbol, TypeId};
 use typelift::world::{TraceAction, Transition};
 
 /// Every order of `0..n`.
@@ -41,11 +41,11 @@ impl Seen {
         State { objects: self.objects.clone(), atoms: atoms.clone(), ..State::default() }
     }
 
-    pub fn evidence(&self) -> Evidence {
+    pub fn evidence(&self) -> Observations {
         let (before, after) = (self.state(&self.before), self.state(&self.after));
         let action = TraceAction::from(self.call.clone());
         let transition = Transition { before: &before, action: &action, after: &after, file: None, step: 1 };
-        let mut evidence = Evidence::default();
+        let mut evidence = Observations::default();
         observe(&mut evidence, &transition, &small_types());
         evidence
     }

@@ -38,7 +38,7 @@ fn saws() -> (Arc<ActionModel>, Parser) {
         let actions = vec![TraceAction::from(call)];
         shown.traces.push(Trace { states, actions, ..Trace::default() });
     }
-    let learned = learn(&hierarchy, &evidence_of(&shown), &Default::default()).expect("a model");
+    let learned = learn(&hierarchy, &evidence_of(&shown).total(), &Default::default()).expect("a model");
     (Arc::new(learned.model), parser)
 }
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use typelift::learn::{Learned, Options, evidence_of, learn};
-use typelift::model::{Evidence, GroundAtom, GroundCall, Hierarchy, ParseConfig, Symbol, Unexplained, Unknown};
+use typelift::model::{GroundAtom, GroundCall, Hierarchy, Observations, ParseConfig, Symbol, Unexplained, Unknown};
 use typelift::world::{Dataset, Expected, Parser, Trace, TraceAction, Verdict};
 
 /// Cups, mugs and jars are vessels; they and shelves are things.
@@ -24,7 +24,7 @@ fn not_executed(before: &str, call: &str, after: &str) -> (TraceAction, [String;
     (TraceAction { executed: Some(false), ..action }, states)
 }
 
-fn evidence(steps: &[(TraceAction, [String; 2])]) -> Evidence {
+fn evidence(steps: &[(TraceAction, [String; 2])]) -> Observations {
     let mut parser = Parser::new(types(), ParseConfig::default());
     let objects: BTreeMap<Symbol, Symbol> =
         ["cup", "mug", "jar", "shelf"].map(|ty| (Symbol::from(format!("{ty}_1")), Symbol::new(ty))).into();
@@ -34,15 +34,17 @@ fn evidence(steps: &[(TraceAction, [String; 2])]) -> Evidence {
     };
     let traces = steps.iter().enumerate().map(|(i, (action, states))| Trace {
         file: Some(Symbol::from(format!("{i}.jsonl"))),
+        // The same step again is another trace.
+        task: i.to_string(),
         states: states.iter().map(&mut state).collect(),
         actions: vec![action.clone()],
         ..Trace::default()
     });
     let traces = traces.collect();
-    evidence_of(&Dataset::new(&parser, traces))
+    evidence_of(&Dataset::new(&parser, traces)).total().into_owned()
 }
 
-fn learned(evidence: &Evidence) -> Learned {
+fn learned(evidence: &Observations) -> Learned {
     learn(&types(), evidence, &Options::default()).expect("a model")
 }
 

@@ -6,10 +6,11 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use proptest::prelude::*;
 use typelift::imagine::{self, imagine};
-use typelift::learn::{self, evidence_of, learn, observe};
+use typelift::learn::{self, evidence_of, learn_evidence, observe};
 use typelift::model::{
     ActionModel, Budget, ClusterKey, Evidence, GroundAtom, GroundCall, Hierarchy, LearnedModel, LiftedAtom,
-    PRE_STATE_BOUND, ParseConfig, PreStates, SplitMix64, State, Symbol, Term, TypeId, is_bijection,
+    Observations, PRE_STATE_BOUND, ParseConfig, PreStates, SourceId, SplitMix64, State, Symbol, Term, TypeId,
+    is_bijection,
 };
 use typelift::plan::Restrictions;
 use typelift::world::{Dataset, Parser, Reset, Scene, Trace, TraceAction, Transition, World};
@@ -77,13 +78,17 @@ fn walk(seed: u64, steps: usize, parser: &mut Parser) -> Trace {
 fn walks(seeds: &[u64], steps: usize) -> Dataset {
     let mut parser = Parser::new(hierarchy(), ParseConfig::default());
     let traces = seeds.iter().map(|&seed| walk(seed, steps, &mut parser)).collect();
-    Dataset { hierarchy: hierarchy(), predicates: parser.predicates(), traces, ..Dataset::default() }
+    Dataset { hierarchy: hierarchy(), traces, ..Dataset::default() }
 }
 
 fn learned(hierarchy: &Hierarchy, evidence: Evidence, individual: bool) -> LearnedModel {
     let options = learn::Options { individual, ..learn::Options::default() };
-    let model = learn(hierarchy, &evidence, &options).expect("a model").model;
-    LearnedModel { model, parse: ParseConfig::default(), evidence }
+    learn_evidence(hierarchy, &ParseConfig::default(), evidence, &options).expect("a model").0
+}
+
+/// Observations as those of one source.
+fn one_source(observations: Observations) -> Evidence {
+    [(SourceId::new([0; 32]), Symbol::new("all"), observations)].into_iter().collect()
 }
 
 fn kitchen_learned(individual: bool) -> LearnedModel {
@@ -93,6 +98,7 @@ fn kitchen_learned(individual: bool) -> LearnedModel {
 
 /// Everything that must hold between a model and what it was learned from.
 fn assert_supported(LearnedModel { model, evidence, .. }: &LearnedModel, individual: bool) {
+    let evidence = evidence.total();
     let h = &model.hierarchy;
     let mut explained: BTreeMap<&ClusterKey, usize> = BTreeMap::new();
     for action in &model.actions {
@@ -148,7 +154,7 @@ proptest! {
         ),
     ) {
         let h = small_types();
-        let mut evidence = Evidence::default();
+        let mut evidence = Observations::default();
         for (types, around, order) in &variants {
             let mut variant = base.clone();
             for (ty, index) in variant.objects.values_mut().zip(types) {
@@ -164,7 +170,7 @@ proptest! {
         }
         let clusters = evidence.clusters.len();
         for individual in [true, false] {
-            let learned = learned(&h, evidence.clone(), individual);
+            let learned = learned(&h, one_source(evidence.clone()), individual);
             assert_supported(&learned, individual);
             let expected = if individual { clusters } else { clusters.min(1) };
             prop_assert_eq!(learned.model.actions.len(), expected, "the same step is one action");
@@ -186,9 +192,10 @@ proptest! {
     fn preconditions_held_whenever_an_action_was_seen(seeds in prop::collection::vec(any::<u64>(), 1..4)) {
         let dataset = walks(&seeds, 60);
         let evidence = evidence_of(&dataset);
-        prop_assert_eq!(evidence.transitions as usize, 60 * seeds.len());
-        let counted: u64 = evidence.clusters.values().map(|c| c.count).sum::<u64>() + evidence.failures();
-        prop_assert_eq!(counted, evidence.transitions, "nothing is lost");
+        let total = evidence.total().into_owned();
+        prop_assert_eq!(total.transitions as usize, 60 * seeds.len());
+        let counted: u64 = total.clusters.values().map(|c| c.count).sum::<u64>() + total.failures();
+        prop_assert_eq!(counted, total.transitions, "nothing is lost");
         for individual in [true, false] {
             assert_supported(&learned(&dataset.hierarchy, evidence.clone(), individual), individual);
         }
@@ -202,25 +209,27 @@ proptest! {
     ) {
         let mut dataset = walks(&seeds, 40);
         dataset.traces.extend(dataset_of(&demonstrations(1)).traces);
-        let whole = learned(&dataset.hierarchy, evidence_of(&dataset), false).to_json().expect("JSON");
+        // Of predicates that no transition is about, whole traces alone tell.
+        let whole = Observations { predicates: BTreeMap::new(), ..evidence_of(&dataset).total().into_owned() };
+        let whole = learned(&dataset.hierarchy, one_source(whole), false).to_json().expect("JSON");
 
         let mut random = SplitMix64::new(salt);
         let mut transitions: Vec<Transition<'_>> = dataset.transitions().collect();
         random.shuffle(&mut transitions);
-        let mut split = vec![Evidence::default(); 4];
+        let mut split = vec![Observations::default(); 4];
         for (i, transition) in transitions.iter().enumerate() {
             observe(&mut split[parts[i % parts.len()]], transition, &dataset.hierarchy);
         }
         random.shuffle(&mut split);
         // ((a + b) + c) + d, and a + (b + (c + d)).
-        let merge = |mut a: Evidence, b: &Evidence| {
+        let merge = |mut a: Observations, b: &Observations| {
             a.merge(b);
             a
         };
-        let left = split.iter().fold(Evidence::default(), merge);
+        let left = split.iter().fold(Observations::default(), merge);
         let right = split.iter().rev().cloned().reduce(|later, earlier| merge(earlier, &later)).expect("four");
         for merged in [left, right] {
-            prop_assert_eq!(&learned(&dataset.hierarchy, merged, false).to_json().expect("JSON"), &whole);
+            prop_assert_eq!(&learned(&dataset.hierarchy, one_source(merged), false).to_json().expect("JSON"), &whole);
         }
     }
 }
@@ -235,8 +244,8 @@ proptest! {
         let mut random = SplitMix64::new(salt);
         let mut tally: BTreeMap<LiftedAtom, u64> = BTreeMap::new();
         let mut different: BTreeSet<Vec<usize>> = BTreeSet::new();
-        let mut split = vec![Evidence::default(); parts];
-        let mut whole = Evidence::default();
+        let mut split = vec![Observations::default(); parts];
+        let mut whole = Observations::default();
         for step in 0..number {
             // `clean` always holds; of ten others about half do.
             let held: Vec<usize> = (0..10).filter(|_| random.below(2) == 0).collect();
@@ -260,7 +269,7 @@ proptest! {
             observe(&mut split[random.below(parts)], &transition, &h);
         }
         random.shuffle(&mut split);
-        let merged = split.iter().fold(Evidence::default(), |mut merged, part| { merged.merge(part); merged });
+        let merged = split.iter().fold(Observations::default(), |mut merged, part| { merged.merge(part); merged });
         prop_assert_eq!(&merged, &whole);
         let cluster = whole.clusters.values().next().expect("one");
         prop_assert_eq!(whole.clusters.len(), 1);
@@ -275,7 +284,7 @@ proptest! {
         }
         let clean = LiftedAtom::new("clean", vec![Term::Param(0)]);
         prop_assert_eq!(cluster.states.always(), BTreeSet::from([clean]));
-        let [a, b] = [merged, whole].map(|evidence| learned(&h, evidence, false).to_json().expect("JSON"));
+        let [a, b] = [merged, whole].map(|observations| learned(&h, one_source(observations), false).to_json().expect("JSON"));
         prop_assert_eq!(&a, &b);
         let read = LearnedModel::from_json(&a).expect("a model");
         prop_assert_eq!(read.to_json().expect("JSON"), a);
@@ -304,7 +313,8 @@ fn the_order_and_names_of_demonstrations_do_not_matter() {
         let learned = learned(&dataset.hierarchy, evidence_of(&dataset), false);
         assert_eq!(shapes(&learned.model), shapes(&expected.model));
         // All but the places where it was seen.
-        for (cluster, other) in learned.evidence.clusters.values().zip(expected.evidence.clusters.values()) {
+        let (total, expected_total) = (learned.evidence.total(), expected.evidence.total());
+        for (cluster, other) in total.clusters.values().zip(expected_total.clusters.values()) {
             assert_eq!((cluster.count, &cluster.states), (other.count, &other.states));
         }
         assert_eq!(learned.model.actions, expected.model.actions);

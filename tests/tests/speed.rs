@@ -37,7 +37,7 @@ fn learning_is_fast() {
     let shown = demonstrations(0);
     let (parsing, dataset) = best(|| dataset_of(&shown));
     let (clustering, evidence) = best(|| evidence_of(&dataset));
-    let (generalizing, learned) = best(|| learn(&dataset.hierarchy, &evidence, &learn::Options::default()));
+    let (generalizing, learned) = best(|| learn(&dataset.hierarchy, &evidence.total(), &learn::Options::default()));
     let Learned { model, report } = learned.expect("a model");
     println!(
         "{} transitions parsed in {parsing:?}, clustered in {clustering:?}, generalized in {generalizing:?}",

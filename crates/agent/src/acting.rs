@@ -135,7 +135,9 @@ impl Episode {
             Some(Objection::Broken { objects } | Objection::WrongKind { objects }) => {
                 objects.iter().all(|object| execution.plan.steps[at].objects.contains(object))
             }
-            Some(Objection::While { atom }) => self.model.predicates.get(&atom.predicate) == Some(&atom.arity()),
+            Some(Objection::While { atom }) => {
+                self.model.predicates.get(&atom.predicate).map(Vec::len) == Some(atom.arity())
+            }
             Some(Objection::NotNow) | None => true,
         };
         if !fits {

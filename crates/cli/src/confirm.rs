@@ -83,7 +83,7 @@ fn read(answer: &str, plan: &Plan, model: &ActionModel, usual: usize) -> Option<
         ["kind", names @ ..] => (Some(Objection::WrongKind { objects: objects(names)? }), ": wrong kind".to_owned()),
         ["while", atom @ ..] => {
             let atom = GroundAtom::parse(&atom.concat()).ok()?;
-            if model.predicates.get(&atom.predicate) != Some(&atom.arity()) {
+            if model.predicates.get(&atom.predicate).map(Vec::len) != Some(atom.arity()) {
                 return None;
             }
             let because = format!(": not while {atom}");

@@ -5,14 +5,15 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use serde::Serialize;
-use typelift::learn::{self, Actor, LearnError, Options, learn_dataset};
-use typelift::model::{ClusterKey, Evidence, LearnedModel, LiftedAtom, ParseConfig, Symbol, Unexplained};
+use typelift::learn::{self, Actor, LearnError, Options, evidence_of, learn_evidence};
+use typelift::model::{ClusterKey, LearnedModel, LiftedAtom, Observations, SourceId, Symbol, Unexplained};
 use typelift::words::count;
-use typelift::world::{Dataset, ObjectTypes, TrajectoryContext, Unlisted, read_dataset, read_hierarchy, write_file};
+use typelift::world::{Dataset, ObjectTypes, Repeated, TrajectoryContext, Unlisted, read_dataset, write_file};
 
 use crate::exit::Exit;
 use crate::failure::{Failure, or_one_of};
 use crate::files::{keep_inputs, warn};
+use crate::learn_into::{self, add, beginning, forget};
 use crate::limits::{Clock, Limits};
 use crate::style::{HEAD, HINT, WARNING, wrapped};
 use crate::watchdog::within;
@@ -23,16 +24,27 @@ use crate::watchdog::within;
   typelift learn demos/*.jsonl --types types.pddl -o model.json
   typelift learn demos --types types.pddl --ignore battery,robot.pose --dry-run
   typelift learn *.trajectory --types domain.pddl --problems P -o model.json
+  typelift learn --into model.json more/*.jsonl
+  typelift learn --into model.json --forget wrong.jsonl
 
 A trace is one demonstration: JSON Lines (trace/1), or a PDDL trajectory. Of a
 folder, every .jsonl and .trajectory file is read.")]
 pub(crate) struct Learn {
     /// Traces, trajectories, or folders of them
-    #[arg(required = true, value_name = "TRACE")]
+    #[arg(required_unless_present = "into", value_name = "TRACE")]
     traces: Vec<PathBuf>,
     /// The type hierarchy: PDDL (:types …), a PDDL domain, or JSON {"child": "parent"}
-    #[arg(long, value_name = "FILE")]
-    types: PathBuf,
+    #[arg(long, value_name = "FILE", required_unless_present = "into")]
+    types: Option<PathBuf>,
+    /// Add to this model, as if all had been learned at once; its types and what it ignores hold
+    #[arg(long, value_name = "MODEL")]
+    into: Option<PathBuf>,
+    /// Take a trace out of the model again: a file, its name, or the first digits of its id
+    #[arg(long, value_name = "SOURCE", requires = "into")]
+    forget: Vec<String>,
+    /// Keep totals and the names of the traces only: nothing can be taken out any more
+    #[arg(long)]
+    compact: bool,
     /// Where trajectories find the types of their objects: a folder of PDDL problems
     #[arg(long, value_name = "DIR", conflicts_with = "objects")]
     problems: Option<PathBuf>,
@@ -60,8 +72,8 @@ pub(crate) struct Learn {
     /// Print one JSON object instead
     #[arg(long)]
     json: bool,
-    /// Write the model to this file
-    #[arg(long, short, value_name = "MODEL", required_unless_present = "dry_run")]
+    /// Write the model to this file [default: that of --into]
+    #[arg(long, short, value_name = "MODEL", required_unless_present_any = ["dry_run", "into"])]
     output: Option<PathBuf>,
     #[command(flatten)]
     limits: Limits,
@@ -84,39 +96,34 @@ struct Report {
 
 impl Learn {
     pub(crate) fn run(&self, clock: Clock, quiet: bool) -> Result<Exit, Failure> {
-        let inputs = self.traces.iter().chain([&self.types]).chain(&self.problems).chain(&self.objects);
-        keep_inputs(self.output.as_deref(), inputs)?;
-        let (dataset, model, report) = within(clock, self.limits, || self.learn())?;
+        let output = self.output.as_ref().or(self.into.as_ref()).filter(|_| !self.dry_run);
+        let inputs = self.traces.iter().chain(&self.types).chain(&self.problems).chain(&self.objects);
+        keep_inputs(output.map(PathBuf::as_path), inputs)?;
+        let (dataset, known, model, report) = within(clock, self.limits, || self.learn())?;
         // First, so that the model is there also if nobody reads what is printed.
-        let output = self.output.as_ref().filter(|_| !self.dry_run);
         if let Some(path) = output {
             write_file(path, model.to_json()?.as_bytes())?;
         }
         let mut out = anstream::stdout().lock();
         if self.json {
-            writeln!(
-                out,
-                "{}",
-                serde_json::to_string_pretty(&json_report(&dataset, &model, &report)).unwrap_or_default()
-            )?;
+            writeln!(out, "{}", serde_json::to_string_pretty(&json_report(&model, &report)).unwrap_or_default())?;
         } else if self.dry_run {
             self.describe(&mut out, &dataset, &model, &report)?;
         } else {
-            print_counts(&mut out, &dataset, &model, &report)?;
+            print_counts(&mut out, &model, &report)?;
         }
         out.flush()?;
         if !quiet {
             if let Some(path) = output {
                 anstream::eprintln!("wrote {}", path.display());
             }
-            self.warn(&dataset, &model, &report);
+            self.warn(&dataset, &known, &model, &report);
         }
         Ok(Exit::Success)
     }
 
-    /// Reads the traces, and learns from them.
-    fn learn(&self) -> Result<(Dataset, LearnedModel, learn::Report), Failure> {
-        let hierarchy = read_hierarchy(&self.types)?;
+    /// Reads the traces, and learns from them; also gives those that the model had already.
+    fn learn(&self) -> Result<(Dataset, Vec<SourceId>, LearnedModel, learn::Report), Failure> {
         let ignore = self.ignore.iter().filter(|name| !name.is_empty()).map(|name| Symbol::new(name)).collect();
         let types = match (&self.problems, &self.objects) {
             (Some(folder), _) => ObjectTypes::from_problems(folder)?,
@@ -129,20 +136,33 @@ impl Learn {
             _ => Unlisted::AsListed,
         };
         let context = TrajectoryContext { types, unlisted };
-        let dataset = read_dataset(&self.traces, hierarchy, ParseConfig { ignore }, &context)?;
+        let LearnedModel { model, parse, options, mut evidence } =
+            beginning(self.into.as_ref(), self.types.as_ref(), ignore)?;
+        let dataset = match self.traces.as_slice() {
+            [] => Dataset { hierarchy: model.hierarchy, parse, ..Dataset::default() },
+            traces => read_dataset(traces, model.hierarchy, parse, &context)?,
+        };
+        if let Some(into) = &self.into {
+            forget(&mut evidence, into, &self.forget)?;
+        }
+        let known = add(&mut evidence, self.into.as_ref(), &evidence_of(&dataset))?;
+        if self.compact {
+            evidence.compact();
+        }
         let actor = match self.actor.as_deref() {
             None => None,
             Some("none") => Some(Actor::Nobody),
             Some(name) => Some(Actor::Type(Symbol::new(name))),
         };
-        let options = Options { individual: self.individual, actor };
-        let (model, report) = learn_dataset(&dataset, &options).map_err(|error| {
+        let options = learn_into::options(&options, Options { individual: self.individual, actor });
+        let learned = learn_evidence(&dataset.hierarchy, &dataset.parse, evidence, &options);
+        let (model, report) = learned.map_err(|error| {
             let LearnError::UnknownType(name) = &error;
             let types: Vec<Symbol> = dataset.hierarchy.types().map(|t| dataset.hierarchy.name(t).clone()).collect();
             let hint = format!("{} Or say `none`.", or_one_of(name.as_str(), &types));
             Failure::bad_input(format!("--actor {name}: {error}")).with_hint(hint)
         })?;
-        Ok((dataset, model, report))
+        Ok((dataset, known, model, report))
     }
 
     /// `--dry-run`: what would be learned from.
@@ -181,34 +201,44 @@ impl Learn {
                 changes.entry(predicate).or_default().1 += 1;
             }
         }
-        let transitions = report.transitions;
+        let transitions = dataset.transitions().count();
         writeln!(
             out,
             "{HEAD}predicates{HEAD:#} (of {transitions} transitions: in how many one changed, one held before)"
         )?;
-        for (predicate, arity) in &dataset.predicates {
+        for (predicate, types) in &model.model.predicates {
             let (changed, held) = changes.get(predicate).copied().unwrap_or_default();
-            let note = if changed == transitions as usize { "  changes every time" } else { "" };
-            writeln!(out, "  {:<24} {changed:>6} {held:>6}{note}", format!("{predicate}/{arity}"))?;
+            let note = if changed == transitions { "  changes every time" } else { "" };
+            writeln!(out, "  {:<24} {changed:>6} {held:>6}{note}", format!("{predicate}/{}", types.len()))?;
         }
         let ignored: Vec<&str> = dataset.parse.ignore.iter().map(Symbol::as_str).collect();
         let ignored = if ignored.is_empty() { "nothing".to_owned() } else { ignored.join(", ") };
         writeln!(out, "{HEAD}ignored{HEAD:#} {ignored}")?;
         writeln!(out, "{HEAD}support{HEAD:#} (transitions of each individual action)")?;
-        for (key, cluster) in &model.evidence.clusters {
+        for (key, cluster) in &model.evidence.total().clusters {
             let types: Vec<&str> = key.types.iter().map(Symbol::as_str).collect();
             writeln!(out, "  {:<66} {:>6}", format!("{}({})", key.action, types.join(", ")), cluster.count)?;
         }
-        print_counts(out, dataset, model, report)
+        print_counts(out, model, report)
     }
 
     /// Warns of what is probably not meant in the files, of names to ignore that were never met, and of attributes that
     /// seem to flicker: most actions rest on a single observation, and there would be fewer without some predicate.
-    fn warn(&self, dataset: &Dataset, model: &LearnedModel, report: &learn::Report) {
+    fn warn(&self, dataset: &Dataset, known: &[SourceId], model: &LearnedModel, report: &learn::Report) {
+        for Repeated { file, first, source } in &dataset.repeated {
+            let source = source.short();
+            anstream::eprintln!(
+                "{WARNING}warning{WARNING:#}: {file} is the same trace as {first} ({source}); it counts once"
+            );
+        }
+        for id in known {
+            let (name, id) = (model.evidence.sources().get(id).map_or("", |source| source.name.as_str()), id.short());
+            anstream::eprintln!("{WARNING}warning{WARNING:#}: {name} ({id}) is in the model already; it counts once");
+        }
         warn(dataset.traces.iter().flat_map(|trace| &trace.warnings));
         for rule in &dataset.unmatched_ignores {
             anstream::eprintln!("{WARNING}warning{WARNING:#}: --ignore {rule}: there is no such attribute or relation");
-            if let Some(source) = dataset.sources.get(rule) {
+            if let Some(source) = dataset.attributes.get(rule) {
                 anstream::eprintln!("{HINT}hint{HINT:#}: {rule} is a predicate; it comes from {source}");
             }
         }
@@ -220,11 +250,11 @@ impl Learn {
             anstream::eprintln!("{WARNING}warning{WARNING:#}: nothing was learned: {why}");
         }
         let (single, actions) = (report.single_support, report.generalized);
-        let Some((predicate, fewer, all)) = flickering(&model.evidence) else { return };
+        let Some((predicate, fewer, all)) = flickering(&model.evidence.total()) else { return };
         if self.individual || single * 2 <= actions {
             return;
         }
-        let source = dataset.sources.get(&predicate).unwrap_or(&predicate);
+        let source = dataset.attributes.get(&predicate).unwrap_or(&predicate);
         anstream::eprintln!(
             "{WARNING}warning{WARNING:#}: {single} of {actions} actions rest on a single observation, so little was generalized"
         );
@@ -236,8 +266,8 @@ impl Learn {
 
 /// The predicate without which there would be the fewest kinds of effect, and how many those would be, and are; none if
 /// there would not be fewer. A kind is what could be generalized into one action, whatever the types.
-fn flickering(evidence: &Evidence) -> Option<(Symbol, usize, usize)> {
-    let clusters: Vec<&ClusterKey> = evidence.clusters.keys().collect();
+fn flickering(observations: &Observations) -> Option<(Symbol, usize, usize)> {
+    let clusters: Vec<&ClusterKey> = observations.clusters.keys().collect();
     let kinds = |left_out: Option<&Symbol>| {
         let kind = |key: &&ClusterKey| {
             let names = |atoms: &[LiftedAtom]| {
@@ -255,9 +285,9 @@ fn flickering(evidence: &Evidence) -> Option<(Symbol, usize, usize)> {
     (fewest < all).then(|| (predicate.clone(), fewest, all))
 }
 
-fn json_report(dataset: &Dataset, model: &LearnedModel, report: &learn::Report) -> Report {
+fn json_report(model: &LearnedModel, report: &learn::Report) -> Report {
     Report {
-        traces: dataset.traces.len(),
+        traces: model.evidence.sources().len(),
         transitions: report.transitions,
         individual_actions: report.individual,
         generalized_actions: report.generalized,
@@ -266,7 +296,7 @@ fn json_report(dataset: &Dataset, model: &LearnedModel, report: &learn::Report) 
         failures_against_merges: report.failures_against,
         unexplained: report.unexplained,
         single_support: report.single_support,
-        predicates: dataset.predicates.clone(),
+        predicates: model.model.predicates.iter().map(|(name, types)| (name.clone(), types.len())).collect(),
         actions: model.model.actions.iter().map(|action| action.name.clone()).collect(),
     }
 }
@@ -279,13 +309,8 @@ pub(crate) fn refused_merges(report: &learn::Report) -> Option<String> {
         .then(|| format!("{} not merged: {} {speak} against it", count(refused, "pair"), count(failures, "failure")))
 }
 
-fn print_counts(
-    out: &mut impl Write,
-    dataset: &Dataset,
-    model: &LearnedModel,
-    report: &learn::Report,
-) -> Result<(), Failure> {
-    let traces = count(dataset.traces.len() as u64, "demonstration");
+fn print_counts(out: &mut impl Write, model: &LearnedModel, report: &learn::Report) -> Result<(), Failure> {
+    let traces = count(model.evidence.sources().len() as u64, "demonstration");
     writeln!(out, "{}, from {traces}", count(report.transitions, "transition"))?;
     writeln!(out, "{}", count(report.individual as u64, "individual action"))?;
     let generalized = count(report.generalized as u64, "generalized action");
@@ -299,7 +324,7 @@ fn print_counts(
     if report.failures > 0 {
         writeln!(out, "{} not executed, or changed nothing", count(report.failures, "transition"))?;
     }
-    for (reason, (times, witnesses)) in &model.evidence.unexplained {
+    for (reason, (times, witnesses)) in &model.evidence.total().unexplained {
         let reason = match reason {
             Unexplained::ObjectsChanged => "entities appeared or vanished",
             Unexplained::PartlyObserved => "something about their entities is unknown",

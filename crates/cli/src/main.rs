@@ -13,6 +13,7 @@ mod files;
 mod kitchen;
 mod lab;
 mod learn;
+mod learn_into;
 mod limits;
 mod memory;
 mod narrate;

@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use typelift::learn::{self, learn};
-use typelift::model::{LearnedModel, Symbol};
+use typelift::model::{LearnedModel, Source, SourceId, Symbol};
 use typelift::pddl::{ExportOptions, Level, export};
 use typelift::words::{count, describe_action, describe_axiom};
 
@@ -26,6 +26,9 @@ pub(crate) struct Show {
     /// Show one action with all of its evidence
     #[arg(long, value_name = "NAME", conflicts_with = "pddl")]
     action: Option<String>,
+    /// List the traces that it was learned from, each with its id
+    #[arg(long, conflicts_with_all = ["action", "pddl"])]
+    sources: bool,
     /// Print the model as a PDDL domain
     #[arg(long)]
     pddl: bool,
@@ -44,6 +47,14 @@ impl Show {
             write!(out, "{}", export(&model, None, &options)?.domain)?;
             return Ok(Exit::Success);
         }
+        if self.sources {
+            let mut sources: Vec<(&SourceId, &Source)> = evidence.sources().iter().collect();
+            sources.sort_by_key(|(id, source)| (&source.name, *id));
+            for (id, Source { name, transitions }) in sources {
+                writeln!(out, "{}  {:>16}  {name}", id.short(), count(*transitions, "transition"))?;
+            }
+            return Ok(Exit::Success);
+        }
         match &self.action {
             None => {
                 let h = &model.hierarchy;
@@ -54,10 +65,10 @@ impl Show {
                     count(model.actions.len() as u64, "action"),
                     count(h.len() as u64 - 1, "type"),
                     count(model.predicates.len() as u64, "predicate"),
-                    count(evidence.transitions, "transition"),
+                    count(evidence.total().transitions, "transition"),
                 )?;
                 // A model of individual actions was never to be merged.
-                let again = learn(&model.hierarchy, &evidence, &learn::Options::default());
+                let again = learn(&model.hierarchy, &evidence.total(), &learn::Options::default());
                 let report = again.ok().map(|learned| learned.report).filter(|r| r.generalized == model.actions.len());
                 if let Some(line) = report.as_ref().and_then(refused_merges) {
                     writeln!(out, "{line}\n")?;

@@ -82,7 +82,10 @@ fn knowing(model: &Arc<ActionModel>, goal: &[GroundAtom]) -> Arc<ActionModel> {
         return Arc::clone(model);
     }
     let mut knowing = ActionModel::clone(model);
-    knowing.predicates.extend(goal.iter().map(|atom| (atom.predicate.clone(), atom.arity())));
+    let root = knowing.hierarchy.root();
+    for atom in goal {
+        knowing.predicates.entry(atom.predicate.clone()).or_insert_with(|| vec![root; atom.arity()]);
+    }
     Arc::new(knowing)
 }
 

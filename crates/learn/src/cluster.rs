@@ -18,8 +18,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use typelift_model::{
-    ClusterKey, Evidence, GroundAtom, Hierarchy, LiftedAtom, MOST_PARAMETERS, NegativeKey, Symbol, Term, Unexplained,
-    Unknown,
+    ClusterKey, GroundAtom, Hierarchy, LiftedAtom, MOST_PARAMETERS, NegativeKey, Observations, Symbol, Term,
+    Unexplained, Unknown,
 };
 use typelift_world::Transition;
 
@@ -29,7 +29,7 @@ use crate::outcome::{Outcome, outcome};
 const LEAF_BOUND: usize = 40_320;
 
 /// Adds one transition to the evidence.
-pub fn observe(evidence: &mut Evidence, transition: &Transition<'_>, hierarchy: &Hierarchy) {
+pub fn observe(evidence: &mut Observations, transition: &Transition<'_>, hierarchy: &Hierarchy) {
     evidence.transitions += 1;
     let (before, after, call) = (transition.before, transition.after, &transition.action.call);
     let outcome = outcome(transition.action);
@@ -62,7 +62,7 @@ pub fn observe(evidence: &mut Evidence, transition: &Transition<'_>, hierarchy: 
 
 /// Adds what an action changed to the cluster of its lifted effect.
 fn observe_effect(
-    evidence: &mut Evidence,
+    evidence: &mut Observations,
     transition: &Transition<'_>,
     adds: Vec<&GroundAtom>,
     deletes: Vec<&GroundAtom>,
@@ -97,7 +97,7 @@ fn observe_effect(
 /// Adds an action that was not executed, or changed nothing, to the negatives: over the entities of its call and, where
 /// it is recorded, of the action that was expected.
 fn observe_failure(
-    evidence: &mut Evidence,
+    evidence: &mut Observations,
     transition: &Transition<'_>,
     unknown: &[&Unknown<Symbol>],
     hierarchy: &Hierarchy,

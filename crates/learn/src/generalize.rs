@@ -14,7 +14,7 @@
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
-use typelift_model::{Evidence, Hierarchy, LiftedAtom, NegativeKey, Support, Symbol, TypeId, effect_bijections};
+use typelift_model::{Hierarchy, LiftedAtom, NegativeKey, Observations, Support, Symbol, TypeId, effect_bijections};
 
 use crate::draft::Draft;
 use crate::score::{Failures, score_action};
@@ -44,7 +44,11 @@ pub(crate) struct Counts {
 }
 
 /// Generalizes pairs until nothing changes.
-pub(crate) fn to_fixed_point(actions: Vec<Draft>, evidence: &Evidence, hierarchy: &Hierarchy) -> (Vec<Draft>, Counts) {
+pub(crate) fn to_fixed_point(
+    actions: Vec<Draft>,
+    evidence: &Observations,
+    hierarchy: &Hierarchy,
+) -> (Vec<Draft>, Counts) {
     let mut counts = Counts::default();
     let failures = Failures::of(evidence, hierarchy);
     let mut speak_against: BTreeMap<&NegativeKey, u64> = BTreeMap::new();
@@ -81,7 +85,7 @@ struct Search {
 }
 
 /// The first pair, in order, whose generalization is at least as good as the mean of the two.
-fn first_merge(group: &[Draft], evidence: &Evidence, failures: &Failures<'_>, hierarchy: &Hierarchy) -> Search {
+fn first_merge(group: &[Draft], evidence: &Observations, failures: &Failures<'_>, hierarchy: &Hierarchy) -> Search {
     let score = |action: &Draft| score_action(action, evidence, failures, hierarchy);
     let mut search = Search::default();
     for (i, left) in group.iter().enumerate() {

@@ -10,9 +10,9 @@
 //! | `CreateGenPars`, `CreateGenAction` | `generalize.rs` |
 //! | `ScoreAction`           | `score.rs`       |
 //!
-//! Clustering is a fold: [`observe`] adds one transition to an [`Evidence`]. Everything after it is a function of
-//! that evidence: [`learn`]. Nothing looks at a transition twice, and no result depends on the order of transitions,
-//! of files, or on the names of objects.
+//! Clustering is a fold: [`observe`] adds one transition to [`Observations`]; [`Evidence`] holds those of each source, and
+//! their sum. Everything after it is a function of that sum: [`learn`]. Nothing looks at a transition twice, and no result
+//! depends on the order of transitions, of files, or on the names of objects.
 //!
 //! ```
 //! use typelift_learn::{evidence_of, learn, Options};
@@ -20,7 +20,7 @@
 //!
 //! let demonstrations = Dataset::default(); // read from files, or recorded
 //! let evidence = evidence_of(&demonstrations);
-//! let learned = learn(&demonstrations.hierarchy, &evidence, &Options::default()).unwrap();
+//! let learned = learn(&demonstrations.hierarchy, &evidence.total(), &Options::default()).unwrap();
 //! assert_eq!(learned.model.actions.len(), learned.report.generalized);
 //! ```
 #![deny(missing_docs)]
@@ -30,36 +30,18 @@ mod draft;
 mod generalize;
 mod outcome;
 mod precondition;
+mod predicates;
 mod score;
 
-use std::collections::BTreeMap;
-
 use thiserror::Error;
-use typelift_model::{ActionModel, Evidence, Hierarchy, LearnedModel, Symbol};
-use typelift_world::Dataset;
+use typelift_model::{ActionModel, Evidence, Hierarchy, LearnedModel, Observations, ParseConfig, Symbol};
+use typelift_world::{Dataset, Trace};
 
 pub use cluster::observe;
+pub use typelift_model::{Actor, LearnOptions as Options};
 
 use draft::Draft;
 use generalize::Counts;
-
-/// What is learned, and how.
-#[derive(Debug, Clone, Default)]
-pub struct Options {
-    /// Stop after the first phase: individual actions, the paper's baseline.
-    pub individual: bool,
-    /// The type of whoever acts. `None`: the type that fills argument 0 of every action and no other parameter.
-    pub actor: Option<Actor>,
-}
-
-/// A declared actor.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Actor {
-    /// Objects of this type act.
-    Type(Symbol),
-    /// Nobody in the state acts.
-    Nobody,
-}
 
 /// What learning counted.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -101,54 +83,76 @@ pub enum LearnError {
     UnknownType(Symbol),
 }
 
-/// ClusterLiftedEffects over a whole dataset.
+/// ClusterLiftedEffects over a whole dataset, by source; a trace that is there twice counts once.
 pub fn evidence_of(dataset: &Dataset) -> Evidence {
-    let mut evidence = Evidence::default();
-    for transition in dataset.transitions() {
-        observe(&mut evidence, &transition, &dataset.hierarchy);
-    }
-    evidence
+    let of_trace = |trace: &Trace| {
+        let name = trace.file.clone().unwrap_or_else(|| Symbol::new("-"));
+        (trace.source_id(&dataset.hierarchy), name, observe_trace(trace, &dataset.hierarchy))
+    };
+    dataset.traces.iter().map(of_trace).collect()
 }
 
-/// Algorithm 1 from a dataset: the model with its evidence, how its snapshots were read and every predicate met.
+/// What one trace shows.
+pub fn observe_trace(trace: &Trace, hierarchy: &Hierarchy) -> Observations {
+    let mut observations = Observations::default();
+    predicates::observe_predicates(&mut observations, trace, hierarchy);
+    for transition in trace.transitions() {
+        observe(&mut observations, &transition, hierarchy);
+    }
+    observations
+}
+
+/// Algorithm 1 from a dataset: the model with its evidence, and how its snapshots were read.
 ///
 /// # Errors
 /// [`LearnError::UnknownType`] for a declared actor that the hierarchy does not have.
 pub fn learn_dataset(dataset: &Dataset, options: &Options) -> Result<(LearnedModel, Report), LearnError> {
-    let evidence = evidence_of(dataset);
-    let Learned { mut model, report } = learn(&dataset.hierarchy, &evidence, options)?;
-    model.predicates.extend(dataset.predicates.clone());
-    Ok((LearnedModel { model, parse: dataset.parse.clone(), evidence }, report))
+    learn_evidence(&dataset.hierarchy, &dataset.parse, evidence_of(dataset), options)
 }
 
-/// Algorithm 1 after clustering: a pure function of the evidence.
+/// Algorithm 1 from evidence, as it was gathered or as it is after something was added or taken out: the model that
+/// learning from all of its sources at once gives.
 ///
 /// # Errors
 /// [`LearnError::UnknownType`] if the evidence or a declared actor names a type that `hierarchy` does not have.
-pub fn learn(hierarchy: &Hierarchy, evidence: &Evidence, options: &Options) -> Result<Learned, LearnError> {
-    let mut actions = Vec::with_capacity(evidence.clusters.len());
-    for (key, cluster) in &evidence.clusters {
+pub fn learn_evidence(
+    hierarchy: &Hierarchy,
+    parse: &ParseConfig,
+    evidence: Evidence,
+    options: &Options,
+) -> Result<(LearnedModel, Report), LearnError> {
+    let Learned { model, report } = learn(hierarchy, &evidence.total(), options)?;
+    Ok((LearnedModel { model, parse: parse.clone(), options: options.clone(), evidence }, report))
+}
+
+/// Algorithm 1 after clustering: a pure function of what was observed.
+///
+/// # Errors
+/// [`LearnError::UnknownType`] if something observed or a declared actor names a type that `hierarchy` does not have.
+pub fn learn(hierarchy: &Hierarchy, observations: &Observations, options: &Options) -> Result<Learned, LearnError> {
+    let mut actions = Vec::with_capacity(observations.clusters.len());
+    for (key, cluster) in &observations.clusters {
         let preconditions = precondition::extract_preconditions(cluster);
         actions.push(draft::create_action(key, cluster, preconditions, hierarchy)?);
     }
     let individual = actions.len();
     let mut counts = Counts::default();
     if !options.individual {
-        (actions, counts) = generalize::to_fixed_point(actions, evidence, hierarchy);
+        (actions, counts) = generalize::to_fixed_point(actions, observations, hierarchy);
     }
     let report = Report {
-        transitions: evidence.transitions,
+        transitions: observations.transitions,
         individual,
         generalized: actions.len(),
         scored_pairs: counts.scored,
         refused_merges: counts.refused,
         failures_against: counts.failures,
-        failures: evidence.failures(),
-        unexplained: evidence.unexplained.values().map(|(count, _)| count).sum(),
+        failures: observations.failures(),
+        unexplained: observations.unexplained.values().map(|(count, _)| count).sum(),
         single_support: actions.iter().filter(|action| action.observations() == 1).count(),
     };
     let mut model = ActionModel {
-        predicates: predicates_of(&actions),
+        predicates: predicates::types_of_predicates(observations, &actions, hierarchy)?,
         hierarchy: hierarchy.clone(),
         actions: actions.into_iter().map(Draft::into_schema).collect(),
         ..ActionModel::default()
@@ -162,9 +166,4 @@ pub fn learn(hierarchy: &Hierarchy, evidence: &Evidence, options: &Options) -> R
     };
     draft::name_actions(&mut model);
     Ok(Learned { model, report })
-}
-
-fn predicates_of(actions: &[Draft]) -> BTreeMap<Symbol, usize> {
-    let atoms = actions.iter().flat_map(|a| a.adds.iter().chain(&a.deletes).chain(&a.preconditions));
-    atoms.map(|atom| (atom.predicate.clone(), atom.arity())).collect()
 }

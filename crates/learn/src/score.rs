@@ -17,7 +17,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use typelift_model::{Cluster, Evidence, Hierarchy, LiftedAtom, NegativeKey, PreStates, Support, Symbol, TypeId};
+use typelift_model::{Cluster, Hierarchy, LiftedAtom, NegativeKey, Observations, PreStates, Support, Symbol, TypeId};
 
 use crate::draft::Draft;
 
@@ -57,7 +57,7 @@ struct Failure<'e> {
 }
 
 impl<'e> Failures<'e> {
-    pub(crate) fn of(evidence: &'e Evidence, hierarchy: &Hierarchy) -> Self {
+    pub(crate) fn of(evidence: &'e Observations, hierarchy: &Hierarchy) -> Self {
         let mut by_call: BTreeMap<_, Vec<Failure<'e>>> = BTreeMap::new();
         for (key, seen) in &evidence.negatives {
             // A type that the hierarchy does not have fits no parameter.
@@ -124,7 +124,7 @@ impl Failure<'_> {
 /// of its call.
 pub(crate) fn score_action(
     action: &Draft,
-    evidence: &Evidence,
+    evidence: &Observations,
     failures: &Failures<'_>,
     hierarchy: &Hierarchy,
 ) -> Score {

@@ -4,12 +4,12 @@ use std::collections::BTreeSet;
 
 use typelift_learn::observe;
 use typelift_model::{
-    Evidence, GroundAtom, GroundCall, Hierarchy, MOST_PARAMETERS, Pattern, State, Symbol, Unexplained, Unknown,
+    GroundAtom, GroundCall, Hierarchy, MOST_PARAMETERS, Observations, Pattern, State, Symbol, Unexplained, Unknown,
 };
 use typelift_world::{TraceAction, Transition};
 
 /// `look`, after which `n` entities called by `name` are seen; before, what `before` says of them holds.
-fn look(n: usize, name: impl Fn(usize) -> String, before: impl Fn(usize) -> Vec<String>) -> (Evidence, State) {
+fn look(n: usize, name: impl Fn(usize) -> String, before: impl Fn(usize) -> Vec<String>) -> (Observations, State) {
     let hierarchy = Hierarchy::from_edges([("thing", "object")]).expect("a tree");
     let ty = hierarchy.id("thing").expect("declared");
     let atoms =
@@ -22,11 +22,11 @@ fn look(n: usize, name: impl Fn(usize) -> String, before: impl Fn(usize) -> Vec<
     (observed(&state, &after), state)
 }
 
-fn observed(before: &State, after: &State) -> Evidence {
+fn observed(before: &State, after: &State) -> Observations {
     let hierarchy = Hierarchy::from_edges([("thing", "object")]).expect("a tree");
     let call = GroundCall { name: "look".into(), args: Vec::new() };
     let action = TraceAction::from(call);
-    let mut evidence = Evidence::default();
+    let mut evidence = Observations::default();
     observe(&mut evidence, &Transition { before, action: &action, after, file: None, step: 1 }, &hierarchy);
     evidence
 }

@@ -2,7 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::{ActionSchema, Axiom, Hierarchy, NameCollision, PddlNames, Replacement, Symbol, TypeId};
+use crate::{
+    ActionSchema, ArgumentTypes, Axiom, Hierarchy, LiftedAtom, NameCollision, Parameter, PddlNames, Replacement,
+    Symbol, Term, TypeId, cover,
+};
 
 /// A symbolic action model (paper: 𝒜 with 𝓗): everything that planning needs, and nothing of what it was learned from,
 /// which a [`LearnedModel`](crate::LearnedModel) has.
@@ -10,8 +13,9 @@ use crate::{ActionSchema, Axiom, Hierarchy, NameCollision, PddlNames, Replacemen
 pub struct ActionModel {
     /// The type hierarchy.
     pub hierarchy: Hierarchy,
-    /// Every predicate that was seen, with its number of arguments.
-    pub predicates: BTreeMap<Symbol, usize>,
+    /// Every predicate with the types of its arguments: as declared, or the lowest that cover all that it was seen of. An
+    /// imagined action or a task may go beyond.
+    pub predicates: ArgumentTypes,
     /// The type of whoever acts, if there is one: it is not blamed when a step fails.
     pub actor: Option<TypeId>,
     /// The objects that actions and axioms mention by name, with their types. Every task has them.
@@ -57,6 +61,45 @@ impl ActionModel {
         self.actor.is_some_and(|actor| self.hierarchy.is_a(ty, actor))
     }
 
+    /// Calls `each` with every lifted atom of the actions and axioms, the placeholders that it is over, and whether it is
+    /// a function.
+    pub fn for_each_atom(&self, each: &mut impl FnMut(&LiftedAtom, &[Parameter], bool)) {
+        for action in &self.actions {
+            for literal in &action.preconditions {
+                each(&literal.atom, &action.parameters, false);
+            }
+            for effect in &action.effects {
+                let parameters = [&action.parameters[..], &effect.parameters].concat();
+                for literal in effect.condition.iter().chain([&effect.literal]) {
+                    each(&literal.atom, &parameters, false);
+                }
+            }
+            for function in &action.cost.functions {
+                each(function, &action.parameters, true);
+            }
+        }
+        for axiom in &self.axioms {
+            for atom in axiom.body.iter().map(|literal| &literal.atom).chain([&axiom.head]) {
+                each(atom, &axiom.parameters, false);
+            }
+        }
+    }
+
+    /// The lowest types that cover how actions and axioms use the predicates; a constant without a type is of the root's.
+    pub fn argument_uses(&self) -> ArgumentTypes {
+        let mut uses = ArgumentTypes::new();
+        self.for_each_atom(&mut |atom, parameters, is_function| {
+            let ty = |term: &Term| match term {
+                Term::Param(index) => parameters[*index as usize].ty,
+                Term::Const(name) => self.constants.get(name).copied().unwrap_or(self.hierarchy.root()),
+            };
+            if !is_function && !atom.is_equality() {
+                cover(&mut uses, &self.hierarchy, &atom.predicate, atom.args.iter().map(ty));
+            }
+        });
+        uses
+    }
+
     /// The reversible mapping of its names to PDDL's.
     ///
     /// # Errors
@@ -76,8 +119,8 @@ impl ActionModel {
     pub fn default_actor(&self) -> Option<TypeId> {
         let h = &self.hierarchy;
         let first = |action: &ActionSchema| match action.call.args.first()? {
-            crate::Term::Param(index) => Some(*index),
-            crate::Term::Const(_) => None,
+            Term::Param(index) => Some(*index),
+            Term::Const(_) => None,
         };
         let mut actor: Option<TypeId> = None;
         for action in self.actions.iter().filter(|a| a.provenance.imagined().is_none()) {

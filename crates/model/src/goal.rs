@@ -1,11 +1,9 @@
 //! Goals.
 
-use std::collections::BTreeMap;
-
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::{GroundAtom, State, Symbol, nearest};
+use crate::{ArgumentTypes, GroundAtom, State, Symbol, nearest};
 
 /// What is to be achieved: the atoms that must all hold in the end, and those of which none may.
 ///
@@ -75,16 +73,16 @@ impl GoalError {
 }
 
 impl Goal {
-    /// Checks that every atom is over known predicates, given with their numbers of arguments, and over objects of the
+    /// Checks that every atom is over known predicates with as many arguments as they take, and over objects of the
     /// state.
     ///
     /// # Errors
     /// [`GoalError`] for the first that is not.
-    pub fn check(&self, state: &State, predicates: &BTreeMap<Symbol, usize>) -> Result<(), GoalError> {
+    pub fn check(&self, state: &State, predicates: &ArgumentTypes) -> Result<(), GoalError> {
         for (atom, _) in self.literals() {
             match predicates.get(&atom.predicate) {
-                Some(&expected) if expected != atom.arity() => {
-                    return Err(GoalError::Arity { atom: atom.clone(), expected });
+                Some(types) if types.len() != atom.arity() => {
+                    return Err(GoalError::Arity { atom: atom.clone(), expected: types.len() });
                 }
                 Some(_) => {}
                 None => {

@@ -1,6 +1,9 @@
 //! What learning makes: a model with what it was learned from.
 
-use crate::{ActionModel, Evidence, ParseConfig};
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::{ActionModel, Evidence, Hierarchy, ParseConfig, Symbol};
 
 /// A model, how the states it speaks of were read, and the evidence it rests on. Plans need the
 /// [model](Self::model) alone; the rest is for reading more states and for learning more.
@@ -10,8 +13,86 @@ pub struct LearnedModel {
     pub model: ActionModel,
     /// How snapshots are read.
     pub parse: ParseConfig,
+    /// What was asked of learning.
+    pub options: LearnOptions,
     /// What the actions rest on.
     pub evidence: Evidence,
+}
+
+/// What is learned, and how.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct LearnOptions {
+    /// Stop after the first phase: individual actions, the paper's baseline.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub individual: bool,
+    /// The type of whoever acts. `None`: the type that fills argument 0 of every action and no other parameter.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub actor: Option<Actor>,
+}
+
+/// A declared actor.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Actor {
+    /// Objects of this type act.
+    Type(Symbol),
+    /// Nobody in the state acts.
+    Nobody,
+}
+
+/// Where demonstrations were read otherwise than those that a model was learned from, so that they do not add up.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum Disagreement {
+    /// The first type that is not in both hierarchies, or lies elsewhere.
+    #[error("the type `{ty}` lies {} in the model and {} in the types given", place(.model), place(.given))]
+    Type {
+        /// The type.
+        ty: Symbol,
+        /// Its parent in the model.
+        model: Option<Symbol>,
+        /// Its parent in the other hierarchy.
+        given: Option<Symbol>,
+    },
+    /// The first attribute or relation that only one of them ignores.
+    #[error("`{name}` is {} by the model", if *.by_model { "ignored" } else { "not ignored" })]
+    Ignored {
+        /// What to ignore.
+        name: Symbol,
+        /// Whether it is the model that ignores it.
+        by_model: bool,
+    },
+}
+
+fn place(parent: &Option<Symbol>) -> String {
+    parent.as_ref().map_or("nowhere".to_owned(), |parent| format!("below `{parent}`"))
+}
+
+impl LearnedModel {
+    /// That states read with this hierarchy and in this way are of the kind that the model was learned from.
+    ///
+    /// # Errors
+    /// [`Disagreement`]: the first, in alphabetical order.
+    pub fn agrees(&self, hierarchy: &Hierarchy, parse: &ParseConfig) -> Result<(), Disagreement> {
+        let own = &self.model.hierarchy;
+        let parent = |h: &Hierarchy, name: &Symbol| {
+            let parent = h.id(name.as_str()).and_then(|ty| h.parent(ty));
+            parent.map(|parent| h.name(parent).clone())
+        };
+        let mut names: Vec<&Symbol> = own.edges().chain(hierarchy.edges()).map(|(child, _)| child).collect();
+        names.sort_unstable();
+        for ty in names {
+            let (model, given) = (parent(own, ty), parent(hierarchy, ty));
+            if model != given {
+                return Err(Disagreement::Type { ty: ty.clone(), model, given });
+            }
+        }
+        match self.parse.ignore.symmetric_difference(&parse.ignore).next() {
+            Some(name) => Err(Disagreement::Ignored { name: name.clone(), by_model: self.parse.ignore.contains(name) }),
+            None => Ok(()),
+        }
+    }
 }
 
 impl From<ActionModel> for LearnedModel {

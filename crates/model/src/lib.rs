@@ -12,25 +12,31 @@
 
 mod action;
 mod action_model;
+mod argument_types;
 mod atom;
 mod axiom;
 mod budget;
 mod choices;
-mod evidence;
+mod evidence_by_source;
+mod evidence_file;
 mod goal;
 mod hierarchy;
 mod instantiate;
 mod json_message;
 mod learned_model;
 mod matching;
+mod model_1;
+mod model_error;
 mod model_file;
 mod model_reader;
+mod observations;
 mod parse_config;
 mod pddl_names;
 mod plan;
 mod printable;
 mod provenance;
 mod similar;
+mod source;
 mod split_mix;
 mod state;
 mod strict;
@@ -43,27 +49,30 @@ mod unknown;
 
 pub use action::{ActionSchema, Cost, Effect, GroundCall, LiftedCall, Literal, Parameter};
 pub use action_model::{ActionModel, ModelPddlNames, UniqueNames, describe_replacements, schema_name};
+pub use argument_types::{ArgumentTypes, cover};
 pub use atom::{Atom, AtomTextError, EQUALS, GroundAtom, LiftedAtom, Term, check_name};
 pub use axiom::Axiom;
 pub use budget::{Budget, MemoryLimit, MemoryProbe, Stop};
-pub use evidence::{
-    Cluster, ClusterKey, Evidence, MOST_PARAMETERS, NegativeKey, PRE_STATE_BOUND, PreStates, Unexplained,
-    WITNESS_BOUND, Witness,
-};
+pub use evidence_by_source::{CompactError, Evidence, MergeError};
 pub use goal::{Goal, GoalError};
 pub use hierarchy::{Hierarchy, HierarchyError, ROOT, TypeId};
 pub use instantiate::{GroundAction, InstantiateError};
 pub use json_message::json_message;
-pub use learned_model::LearnedModel;
+pub use learned_model::{Actor, Disagreement, LearnOptions, LearnedModel};
 pub use matching::{Place, bind_places};
-pub use model_file::{MODEL_FORMAT, ModelFileError};
+pub use model_error::{MODEL_FORMAT, ModelFileError};
 pub use model_reader::MOST_PRECONDITIONS;
+pub use observations::{
+    Cluster, ClusterKey, MOST_PARAMETERS, NegativeKey, Observations, PRE_STATE_BOUND, PreStates, Unexplained,
+    WITNESS_BOUND, Witness,
+};
 pub use parse_config::ParseConfig;
 pub use pddl_names::{NameCollision, PddlNames};
 pub use plan::{Imagined, Plan, Step};
 pub use printable::printable;
 pub use provenance::{Provenance, Replacement, Support};
 pub use similar::{did_you_mean, nearest};
+pub use source::{Source, SourceId, SourceIdError};
 pub use split_mix::{SplitMix64, spread};
 pub use state::State;
 pub use strict::strict;

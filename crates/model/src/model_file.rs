@@ -1,75 +1,15 @@
 //! The model's file: versioned, self-contained JSON, in which everything is written by name. Its reader is the next
 //! file.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
+use crate::evidence_file::EvidenceFile;
 use crate::{
-    ActionSchema, Axiom, Cluster, ClusterKey, Effect, Evidence, GroundAtom, Hierarchy, HierarchyError, LearnedModel,
-    LiftedAtom, Literal, NameCollision, NegativeKey, Parameter, ParseConfig, Provenance, Replacement, Support, Symbol,
-    Unexplained, Witness,
+    ActionSchema, Axiom, ClusterKey, Effect, GroundAtom, Hierarchy, LearnOptions, LearnedModel, LiftedAtom, Literal,
+    MODEL_FORMAT, ModelFileError, Parameter, ParseConfig, Provenance, Replacement, Support, Symbol, TypeId,
 };
-
-/// The format that this version writes.
-pub const MODEL_FORMAT: &str = "model/2";
-/// The format before, which is still read: what an action's provenance says was not yet said of the action itself.
-pub(crate) const MODEL_FORMAT_1: &str = "model/1";
-
-/// Why a text is not a model.
-#[derive(Debug, Error)]
-pub enum ModelFileError {
-    /// It is not JSON, or not of the right shape.
-    #[error("line {line}, column {column}: {message}")]
-    Json {
-        /// The line, from 1.
-        line: usize,
-        /// The column, from 1.
-        column: usize,
-        /// What is wrong.
-        message: String,
-    },
-    /// It is of another version.
-    #[error(
-        "this is a file of format `{found}`; this version of typelift reads `{MODEL_FORMAT_1}` and `{MODEL_FORMAT}`"
-    )]
-    Version {
-        /// The format it names.
-        found: String,
-    },
-    /// It is of another kind.
-    #[error("this is a file of format `{found}`, not a model")]
-    NotAModel {
-        /// The format it names.
-        found: String,
-    },
-    /// It does not say what it is.
-    #[error("there is no \"format\":\"{MODEL_FORMAT}\": this is not a model file")]
-    NoFormat,
-    /// Its types are not a tree.
-    #[error("\"types\": {0}")]
-    Hierarchy(#[from] HierarchyError),
-    /// It names a type that it does not have.
-    #[error("{place}: unknown type `{name}`")]
-    UnknownType {
-        /// Where.
-        place: String,
-        /// The type's name.
-        name: Symbol,
-    },
-    /// An action refers to a parameter, cluster or name that it does not have, or twice to one.
-    #[error("{place}: {message}")]
-    Inconsistent {
-        /// Where.
-        place: String,
-        /// What is wrong.
-        message: String,
-    },
-    /// Its names collide in PDDL.
-    #[error(transparent)]
-    Collision(#[from] NameCollision),
-}
 
 #[derive(Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -79,9 +19,13 @@ pub(crate) struct ModelFile {
     pub(crate) format: String,
     /// `[child, parent]` pairs, parents first.
     pub(crate) types: Vec<(Symbol, Symbol)>,
-    pub(crate) predicates: BTreeMap<Symbol, usize>,
+    /// The types of each predicate's arguments.
+    pub(crate) predicates: BTreeMap<Symbol, Vec<Symbol>>,
     #[serde(default)]
     pub(crate) parse: ParseConfig,
+    /// What was asked of learning.
+    #[serde(default)]
+    pub(crate) options: LearnOptions,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) actor: Option<Symbol>,
     /// Objects that actions and axioms mention by name, with their types.
@@ -95,12 +39,12 @@ pub(crate) struct ModelFile {
     pub(crate) evidence: EvidenceFile,
     /// PDDL names, by the model's names; written for other tools, made anew when the model is read.
     #[serde(default)]
-    pddl: PddlFile,
+    pub(crate) pddl: PddlFile,
 }
 
 #[derive(Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-struct PddlFile {
+pub(crate) struct PddlFile {
     types: BTreeMap<Symbol, Symbol>,
     predicates: BTreeMap<Symbol, Symbol>,
     actions: BTreeMap<Symbol, Symbol>,
@@ -183,7 +127,7 @@ pub(crate) struct AxiomFile {
 #[serde(rename_all = "snake_case")]
 pub(crate) enum ProvenanceFile {
     Given,
-    /// The cluster's number in `evidence`, and the action's parameter for each of the cluster's.
+    /// The cluster's number in `evidence`, from 0, and the action's parameter for each of the cluster's.
     Demonstrated(SupportFile),
     Generalized(Vec<SupportFile>),
     Imagined {
@@ -207,45 +151,6 @@ pub(crate) struct SupportFile {
     pub(crate) map: Vec<u32>,
 }
 
-#[derive(Default, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub(crate) struct EvidenceFile {
-    #[serde(default)]
-    pub(crate) transitions: u64,
-    #[serde(default)]
-    pub(crate) clusters: Vec<ClusterFile>,
-    #[serde(default)]
-    pub(crate) negatives: Vec<NegativeFile>,
-    #[serde(default)]
-    pub(crate) unexplained: Vec<UnexplainedFile>,
-}
-
-#[derive(Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub(crate) struct ClusterFile {
-    #[serde(flatten)]
-    pub(crate) key: ClusterKey,
-    #[serde(flatten)]
-    pub(crate) cluster: Cluster,
-}
-
-#[derive(Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub(crate) struct NegativeFile {
-    #[serde(flatten)]
-    pub(crate) key: NegativeKey,
-    #[serde(flatten)]
-    pub(crate) cluster: Cluster,
-}
-
-#[derive(Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub(crate) struct UnexplainedFile {
-    pub(crate) reason: Unexplained,
-    pub(crate) count: u64,
-    pub(crate) witnesses: BTreeSet<Witness>,
-}
-
 #[cfg(feature = "schema")]
 impl schemars::JsonSchema for LearnedModel {
     fn schema_name() -> std::borrow::Cow<'static, str> {
@@ -266,25 +171,28 @@ impl LearnedModel {
     pub fn to_json(&self) -> Result<String, ModelFileError> {
         let model = &self.model;
         let names = model.pddl_names()?;
+        let total = self.evidence.total();
         for action in &model.actions {
-            let known = |s: &Support| self.evidence.clusters.get(&*s.cluster).map(|cluster| cluster.count);
+            let known = |s: &Support| total.clusters.get(&*s.cluster).map(|cluster| cluster.count);
             if action.provenance.support().iter().any(|s| known(s) != Some(s.observations)) {
                 let message = "it rests on observations that are not in the evidence".to_owned();
                 return Err(ModelFileError::Inconsistent { place: format!("action {}", action.name), message });
             }
         }
         let map = |names: &crate::PddlNames| names.iter().map(|(n, p)| (n.clone(), p.clone())).collect();
-        let clusters: Vec<&ClusterKey> = self.evidence.clusters.keys().collect();
+        let names_of = |types: &[TypeId]| types.iter().map(|ty| model.hierarchy.name(*ty).clone()).collect();
+        let clusters: Vec<&ClusterKey> = total.clusters.keys().collect();
         let file = ModelFile {
             format: MODEL_FORMAT.to_owned(),
             types: model.hierarchy.edges().map(|(c, p)| (c.clone(), p.clone())).collect(),
-            predicates: model.predicates.clone(),
+            predicates: model.predicates.iter().map(|(name, types)| (name.clone(), names_of(types))).collect(),
             parse: self.parse.clone(),
+            options: self.options.clone(),
             actor: model.actor.map(|ty| model.hierarchy.name(ty).clone()),
             constants: model.constants.iter().map(|(n, ty)| (n.clone(), model.hierarchy.name(*ty).clone())).collect(),
             axioms: model.axioms.iter().map(|a| write_axiom(a, &model.hierarchy)).collect(),
             actions: model.actions.iter().map(|a| write_action(a, &model.hierarchy, &clusters)).collect(),
-            evidence: write_evidence(&self.evidence),
+            evidence: EvidenceFile::of(&self.evidence),
             pddl: PddlFile {
                 types: map(&names.types),
                 predicates: map(&names.predicates),
@@ -362,30 +270,5 @@ fn write_action(action: &ActionSchema, hierarchy: &Hierarchy, clusters: &[&Clust
         strict: action.strict,
         named_by_call: action.named_by_call,
         provenance,
-    }
-}
-
-fn write_evidence(evidence: &Evidence) -> EvidenceFile {
-    EvidenceFile {
-        transitions: evidence.transitions,
-        clusters: evidence
-            .clusters
-            .iter()
-            .map(|(key, cluster)| ClusterFile { key: key.clone(), cluster: cluster.clone() })
-            .collect(),
-        negatives: evidence
-            .negatives
-            .iter()
-            .map(|(key, cluster)| NegativeFile { key: key.clone(), cluster: cluster.clone() })
-            .collect(),
-        unexplained: evidence
-            .unexplained
-            .iter()
-            .map(|(reason, (count, witnesses))| UnexplainedFile {
-                reason: *reason,
-                count: *count,
-                witnesses: witnesses.clone(),
-            })
-            .collect(),
     }
 }

@@ -5,17 +5,15 @@ use std::sync::Arc;
 
 use serde::Deserialize;
 
-use crate::model_file::{
-    ActionFile, AxiomFile, ClusterFile, EffectFile, LiteralFile, MODEL_FORMAT_1, ModelFile, ProvenanceFile, SupportFile,
-};
+use crate::model_1::ModelFile1;
+use crate::model_error::{MODEL_FORMAT_1, at_most, inconsistent, type_id};
+use crate::model_file::{ActionFile, AxiomFile, EffectFile, LiteralFile, ModelFile, ProvenanceFile, SupportFile};
 use crate::{
-    ActionModel, ActionSchema, Axiom, Cost, Effect, Evidence, Hierarchy, LearnedModel, LiftedAtom, LiftedCall, Literal,
-    MODEL_FORMAT, MOST_PARAMETERS, ModelFileError, Parameter, PreStates, Provenance, Replacement, Support, Symbol,
-    Term, TypeId, check_name, json_message,
+    ActionModel, ActionSchema, ArgumentTypes, Axiom, ClusterKey, Cost, Effect, Hierarchy, LearnedModel, LiftedAtom,
+    LiftedCall, Literal, MODEL_FORMAT, MOST_PARAMETERS, ModelFileError, Observations, Parameter, Provenance,
+    Replacement, Support, Symbol, Term, check_name, json_message,
 };
 
-/// Observations that a model may rest on: products of three such numbers are calculated with.
-const MOST_COUNTED: u64 = 1 << 40;
 /// Preconditions that an action may have.
 pub const MOST_PRECONDITIONS: usize = 40_000;
 
@@ -36,20 +34,35 @@ impl LearnedModel {
         }
         // Of a file of JSON Lines, the first line says what it is.
         let head = serde_json::Deserializer::from_str(text).into_iter::<Head>().next().transpose().map_err(json)?;
-        match head.and_then(|head| head.format) {
+        let head_format = match head.and_then(|head| head.format) {
             None => return Err(ModelFileError::NoFormat),
             Some(found) if !found.starts_with("model/") => return Err(ModelFileError::NotAModel { found }),
             Some(found) if found != MODEL_FORMAT && found != MODEL_FORMAT_1 => {
                 return Err(ModelFileError::Version { found });
             }
-            Some(_) => {}
+            Some(found) => found,
+        };
+        let format_1 = head_format == MODEL_FORMAT_1;
+        let file = match format_1 {
+            true => serde_json::from_str(text).map(ModelFile1::upgraded),
+            false => serde_json::from_str(text).map(|file| (file, BTreeMap::new())),
+        };
+        let (file, arities) = file.map_err(json)?;
+        let mut learned = Self::read(file)?;
+        if format_1 {
+            learned.upgrade(arities)?;
         }
-        let mut file: ModelFile = serde_json::from_str(text).map_err(json)?;
-        if file.format == MODEL_FORMAT_1 {
-            file.upgrade();
-        }
+        learned.model.check()?;
+        learned.model.pddl_names()?;
+        Ok(learned)
+    }
+
+    fn read(file: ModelFile) -> Result<Self, ModelFileError> {
         let hierarchy = Hierarchy::from_edges(file.types.iter().map(|(c, p)| (c.as_str(), p.as_str())))?;
-        let clusters: Vec<Support> = file.evidence.clusters.iter().map(Support::from).collect();
+        let clusters: Vec<ClusterKey> = file.evidence.clusters.iter().map(|cluster| cluster.key.clone()).collect();
+        let evidence = file.evidence.read(&hierarchy)?;
+        let total = evidence.total();
+        let clusters: Vec<Support> = clusters.into_iter().map(|key| support(key, &total)).collect();
         let actor = file.actor.map(|name| type_id(&hierarchy, &name, || "\"actor\"".to_owned())).transpose()?;
         let mut names = BTreeSet::new();
         let mut actions = Vec::with_capacity(file.actions.len());
@@ -61,47 +74,36 @@ impl LearnedModel {
             actions.push(action);
         }
         actions.sort_by(|a, b| a.name.cmp(&b.name));
-        let evidence = Evidence {
-            transitions: file.evidence.transitions,
-            clusters: file.evidence.clusters.into_iter().map(|c| (c.key, c.cluster)).collect(),
-            negatives: file.evidence.negatives.into_iter().map(|c| (c.key, c.cluster)).collect(),
-            unexplained: file.evidence.unexplained.into_iter().map(|u| (u.reason, (u.count, u.witnesses))).collect(),
-        };
         let mut constants = BTreeMap::new();
         for (name, ty) in file.constants {
             constants.insert(name, type_id(&hierarchy, &ty, || "\"constants\"".to_owned())?);
         }
-        let axioms = file.axioms.into_iter().map(|axiom| read_axiom(axiom, &hierarchy)).collect::<Result<_, _>>()?;
-        let (predicates, parse) = (file.predicates, file.parse);
-        let model = ActionModel { hierarchy, predicates, actor, constants, actions, axioms };
-        model.check_names()?;
-        model.check_arities()?;
-        model.check_axioms()?;
-        evidence.check(&model.hierarchy)?;
-        model.pddl_names()?;
-        Ok(Self { model, parse, evidence })
-    }
-}
-
-impl ModelFile {
-    /// Says of the actions what format 1 left to their provenance.
-    fn upgrade(&mut self) {
-        for action in &mut self.actions {
-            let given = matches!(action.provenance, ProvenanceFile::Given);
-            (action.strict, action.named_by_call) = (!given, given);
+        let mut predicates = ArgumentTypes::new();
+        for (name, types) in file.predicates {
+            let place = || format!("predicate {name}");
+            let types = types.iter().map(|ty| type_id(&hierarchy, ty, place)).collect::<Result<_, _>>()?;
+            predicates.insert(name, types);
         }
+        let axioms = file.axioms.into_iter().map(|axiom| read_axiom(axiom, &hierarchy)).collect::<Result<_, _>>()?;
+        let model = ActionModel { hierarchy, predicates, actor, constants, actions, axioms };
+        drop(total);
+        Ok(Self { model, parse: file.parse, options: file.options, evidence })
     }
 }
 
-impl From<&ClusterFile> for Support {
-    /// The cluster under its own parameters.
-    fn from(ClusterFile { key, cluster }: &ClusterFile) -> Self {
-        let map = (0..key.types.len() as u32).collect();
-        Self { cluster: Arc::new(key.clone()), map, observations: cluster.count }
-    }
+/// A cluster under its own parameters.
+fn support(key: ClusterKey, total: &Observations) -> Support {
+    let observations = total.clusters.get(&key).map_or(0, |cluster| cluster.count);
+    Support { map: (0..key.types.len() as u32).collect(), cluster: Arc::new(key), observations }
 }
 
 impl ActionModel {
+    fn check(&self) -> Result<(), ModelFileError> {
+        self.check_names()?;
+        self.check_arities()?;
+        self.check_axioms()
+    }
+
     fn check_names(&self) -> Result<(), ModelFileError> {
         let named = |name: &Symbol, place: &str| {
             check_name(name.as_str()).map_err(|error| inconsistent(place.to_owned(), &error.to_string()))
@@ -109,9 +111,9 @@ impl ActionModel {
         for ty in self.hierarchy.types() {
             named(self.hierarchy.name(ty), "\"types\"")?;
         }
-        for (predicate, arity) in &self.predicates {
+        for (predicate, types) in &self.predicates {
             named(predicate, "\"predicates\"")?;
-            at_most(*arity, MOST_PARAMETERS, "arguments", || format!("predicate {predicate}"))?;
+            at_most(types.len(), MOST_PARAMETERS, "arguments", || format!("predicate {predicate}"))?;
         }
         for constant in self.constants.keys() {
             named(constant, "\"constants\"")?;
@@ -158,7 +160,7 @@ impl ActionModel {
         place: impl Fn() -> String,
     ) -> Result<(), ModelFileError> {
         let equality = (in_condition && atom.is_equality()).then_some(2);
-        let expected = equality.or(self.predicates.get(&atom.predicate).copied());
+        let expected = equality.or(self.predicates.get(&atom.predicate).map(Vec::len));
         if expected == Some(atom.arity()) {
             return Ok(());
         }
@@ -196,55 +198,6 @@ impl ActionModel {
         }
         Ok(())
     }
-}
-
-impl Evidence {
-    fn check(&self, hierarchy: &Hierarchy) -> Result<(), ModelFileError> {
-        let mut total = 0_u64;
-        let clusters = self.clusters.iter().map(|(key, cluster)| {
-            let atoms = key.adds.iter().chain(&key.deletes);
-            (&key.action, &key.types, &key.call, atoms.collect::<Vec<_>>(), cluster)
-        });
-        let negatives =
-            self.negatives.iter().map(|(key, cluster)| (&key.action, &key.types, &key.call, Vec::new(), cluster));
-        for (action, types, call, mut atoms, cluster) in clusters.chain(negatives) {
-            let place = || format!("\"evidence\" of {action}");
-            for ty in types {
-                type_id(hierarchy, ty, place)?;
-            }
-            let mut counts = vec![cluster.count];
-            match &cluster.states {
-                PreStates::Exact(states) => {
-                    atoms.extend(states.keys().flatten());
-                    counts.extend(states.values());
-                }
-                PreStates::Counted { total, atoms: counted } => {
-                    atoms.extend(counted.keys());
-                    counts.push(*total);
-                    counts.extend(counted.values());
-                }
-            }
-            let mut params = atoms.iter().flat_map(|atom| atom.params()).chain(call.iter().copied());
-            if let Some(bad) = params.find(|&i| i as usize >= types.len()) {
-                return Err(inconsistent(place(), &format!("there is no parameter ?{bad}")));
-            }
-            let sum = counts.into_iter().try_fold(total, u64::checked_add).filter(|sum| *sum <= MOST_COUNTED);
-            total = sum.ok_or_else(|| inconsistent(place(), "its counts are too large"))?;
-        }
-        Ok(())
-    }
-}
-
-fn at_most(n: usize, most: usize, what: &str, place: impl Fn() -> String) -> Result<(), ModelFileError> {
-    if n <= most { Ok(()) } else { Err(inconsistent(place(), &format!("{n} {what} are more than {most}"))) }
-}
-
-fn inconsistent(place: String, message: &str) -> ModelFileError {
-    ModelFileError::Inconsistent { place, message: message.to_owned() }
-}
-
-fn type_id(hierarchy: &Hierarchy, name: &Symbol, place: impl Fn() -> String) -> Result<TypeId, ModelFileError> {
-    hierarchy.id(name.as_str()).ok_or_else(|| ModelFileError::UnknownType { place: place(), name: name.clone() })
 }
 
 fn read_literal(literal: LiteralFile) -> Literal {

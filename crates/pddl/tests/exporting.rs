@@ -41,6 +41,12 @@ fn parameters(list: &[(&str, &str)]) -> Vec<Parameter> {
     list.iter().map(parameter).collect()
 }
 
+/// Declares a predicate.
+fn declare(model: &mut ActionModel, predicate: &str, types: &[&str]) {
+    let types = types.iter().map(|ty| model.hierarchy.id(ty).expect(ty)).collect();
+    model.predicates.insert(predicate.into(), types);
+}
+
 /// An imagined action and a given one.
 fn model() -> ActionModel {
     let types = hierarchy();
@@ -74,13 +80,13 @@ fn model() -> ActionModel {
         named_by_call: true,
         provenance: Provenance::Given,
     };
-    let predicates = [("near", 2), ("is_Ready", 1), ("dark", 0), ("at", 2), ("unused", 1)];
-    ActionModel {
-        predicates: predicates.map(|(name, arity)| (Symbol::new(name), arity)).into(),
-        actions: vec![imagined, given],
-        hierarchy: types,
-        ..ActionModel::default()
-    }
+    let mut model = ActionModel { actions: vec![imagined, given], hierarchy: types.clone(), ..ActionModel::default() };
+    declare(&mut model, "near", &["machine", "station"]);
+    declare(&mut model, "is_Ready", &["Saw"]);
+    declare(&mut model, "dark", &[]);
+    declare(&mut model, "at", &["agent", "station"]);
+    declare(&mut model, "unused", &["shelf"]);
+    model
 }
 
 fn task() -> Task {
@@ -141,7 +147,7 @@ const ADL_DOMAIN: &str = "\
     (dark)
     (is_ready ?a0 - machine)
     (near ?a0 - machine ?a1 - station)
-    (unused ?a0 - object))
+    (unused ?a0 - shelf))
 
   ; imagined: machine for Saw, from USE-saw
   ; executes USE(?agent, ?machine)
@@ -288,7 +294,7 @@ fn given_model() -> ActionModel {
         literal: literal("is_Ready(?1)"),
         parameters: parameters(&[("who", "machine")]),
     });
-    model.predicates.insert("busy".into(), 2);
+    declare(&mut model, "busy", &["machine", "station"]);
     let axiom = |head: &str, list: &[(&str, &str)], body: &[&str]| Axiom {
         stratum: 0,
         head: lifted(head),
@@ -403,7 +409,8 @@ fn with_a_hand() -> ActionModel {
             &["empty(?0)", "at(?1,?2)", "not holds(?0,?1)"],
         ),
     ];
-    model.predicates.extend([(Symbol::new("empty"), 1), (Symbol::new("holds"), 2)]);
+    declare(&mut model, "empty", &["agent"]);
+    declare(&mut model, "holds", &["agent", "station"]);
     model
 }
 
@@ -450,8 +457,8 @@ fn equality_is_a_predicate_of_its_own_in_strips() {
 #[test]
 fn names_that_are_in_use_are_not_taken_again() {
     let mut model = model();
-    model.predicates.insert("Not-Is_ready".into(), 1);
-    model.predicates.insert("differ".into(), 2);
+    declare(&mut model, "Not-Is_ready", &["machine"]);
+    declare(&mut model, "differ", &["object", "object"]);
     let task = task_that_implies_nothing();
     let (domain, _) = written(&model, Some(&task), Level::Strips);
     assert!(domain.contains("(not-is_ready-2 ?machine)") && domain.contains("(differ-2 ?machine ?station_2)"));
@@ -474,7 +481,7 @@ fn too_many_facts_are_refused_before_they_are_written() {
     let mut model = model();
     model.actions[0].parameters = parameters(&[("a", "agent"), ("m", "machine"), ("s", "station"), ("t", "station")]);
     model.actions[0].preconditions.push(literal("not wide(?1,?2,?3)"));
-    model.predicates.insert("wide".into(), 3);
+    declare(&mut model, "wide", &["machine", "station", "station"]);
     let mut task = task_that_implies_nothing();
     task.init.atoms.insert(ground("wide(saw_1,shelf_1,Home)"));
     let saw = model.hierarchy.id("Saw").expect("a type");
@@ -487,7 +494,7 @@ fn too_many_facts_are_refused_before_they_are_written() {
 #[test]
 fn colliding_names_are_refused() {
     let mut model = model();
-    model.predicates.insert("NEAR".into(), 2);
+    declare(&mut model, "NEAR", &["object", "object"]);
     let error = exported(&model, None, Level::Adl).expect_err("a collision");
     assert_eq!(error.to_string(), "the predicate names `NEAR` and `near` are the same name in PDDL, `near`");
     let mut task = task();

@@ -7,7 +7,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use typelift_model::{ActionModel, ActionSchema, Atom, GroundAtom, LiftedAtom, Literal, Symbol, Task, Term, TypeId};
+use typelift_model::{
+    ActionModel, ActionSchema, Atom, GroundAtom, LiftedAtom, Literal, Symbol, Task, Term, TypeId, cover,
+};
 
 use crate::{Ban, Restrictions};
 
@@ -93,8 +95,13 @@ impl Compiled {
             }
             name = Symbol::from(format!("{base}-{number}"));
         }
-        self.model.predicates.insert(name.clone(), arity);
-        self.task.init.atoms.extend(tuples.into_iter().map(|tuple| Atom::new(name.clone(), tuple)));
+        let root = self.model.hierarchy.root();
+        for tuple in tuples {
+            let types = tuple.iter().map(|object| self.task.init.objects.get(object).copied().unwrap_or(root));
+            cover(&mut self.model.predicates, &self.model.hierarchy, &name, types);
+            self.task.init.atoms.insert(Atom::new(name.clone(), tuple));
+        }
+        self.model.predicates.entry(name.clone()).or_insert_with(|| vec![root; arity]);
         name
     }
 }

@@ -43,7 +43,7 @@
 //!         ..Trace::default()
 //!     });
 //! }
-//! let learned = learn(&types, &evidence_of(&demonstrations), &Default::default())?;
+//! let learned = learn(&types, &evidence_of(&demonstrations).total(), &Default::default())?;
 //! assert_eq!(learned.model.actions[0].name, "cut-saw-piece"); // rod and plank meet in piece
 //!
 //! // Asked: a beam, which nobody ever cut.

@@ -83,8 +83,9 @@ impl Description {
             self.row("merged", support.iter().map(|s| format!("{} {}", individual_name(s, model), s.observations)));
             self.row("because", because(action, model));
         }
-        for support in support.iter().filter(|_| evidence.is_some()) {
-            let witnesses = evidence.and_then(|e| e.clusters.get(&*support.cluster)).map(|c| &c.witnesses);
+        let Some(total) = evidence.map(Evidence::total) else { return };
+        for support in support {
+            let witnesses = total.clusters.get(&*support.cluster).map(|c| &c.witnesses);
             let places = witnesses.into_iter().flatten().map(|w| format!("{} step {}", w.file, w.step));
             let places: Vec<String> = places.collect();
             self.row("seen", [format!("{}: {}", individual_name(support, model), places.join(", "))]);

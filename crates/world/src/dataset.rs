@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use typelift_model::{GroundAtom, GroundCall, Hierarchy, ParseConfig, State, Symbol, Witness};
+use typelift_model::{GroundAtom, GroundCall, Hierarchy, ParseConfig, SourceId, State, Symbol, Witness};
 
 use crate::{Expected, FileError, Parser, Verdict};
 
@@ -44,6 +44,8 @@ impl From<GroundCall> for TraceAction {
 pub struct Trace {
     /// The file's name, without its folders.
     pub file: Option<Symbol>,
+    /// The file as a source, if it was read from one; [`source_id`](Self::source_id) always gives one.
+    pub source: Option<SourceId>,
     /// What was done, in words.
     pub task: String,
     /// What was to hold in the end, if it was said.
@@ -121,28 +123,56 @@ pub struct Dataset {
     pub hierarchy: Hierarchy,
     /// How snapshots were read.
     pub parse: ParseConfig,
-    /// Every predicate met, with its number of arguments.
-    pub predicates: BTreeMap<Symbol, usize>,
-    /// The attribute or relation that each predicate comes from.
-    pub sources: BTreeMap<Symbol, Symbol>,
+    /// The attribute or relation that each predicate met comes from.
+    pub attributes: BTreeMap<Symbol, Symbol>,
     /// What was to be ignored and was never met.
     pub unmatched_ignores: Vec<Symbol>,
     /// The demonstrations.
     pub traces: Vec<Trace>,
+    /// Files that were the same, byte for byte, as one read before, and are not among the traces.
+    pub repeated: Vec<Repeated>,
+}
+
+/// A file that is the same as another.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Repeated {
+    /// Its name, without folders.
+    pub file: Symbol,
+    /// The name of the first one.
+    pub first: Symbol,
+    /// What both are.
+    pub source: SourceId,
 }
 
 impl Dataset {
-    /// The dataset of traces that a parser read.
+    /// The dataset of traces that a parser read. Of files that are the same the first is kept, under the name that comes
+    /// first in the alphabet, so that their order does not matter.
     pub fn new(parser: &Parser, traces: Vec<Trace>) -> Self {
-        let predicates = parser.predicates();
-        let source = |predicate: &Symbol| Some((predicate.clone(), parser.source(predicate.as_str())?.clone()));
+        let mut once: Vec<Trace> = Vec::with_capacity(traces.len());
+        let mut repeated = Vec::new();
+        let mut places: BTreeMap<SourceId, usize> = BTreeMap::new();
+        for trace in traces {
+            let Some(source) = trace.source else {
+                once.push(trace);
+                continue;
+            };
+            let place = *places.entry(source).or_insert(once.len());
+            match once.get_mut(place) {
+                None => once.push(trace),
+                Some(known) => {
+                    let named = |trace: &Trace| trace.file.clone().unwrap_or_default();
+                    repeated.push(Repeated { file: named(&trace), first: named(known), source });
+                    known.file = known.file.take().min(trace.file);
+                }
+            }
+        }
         Self {
             hierarchy: parser.hierarchy().clone(),
             parse: parser.config().clone(),
-            sources: predicates.keys().filter_map(source).collect(),
+            attributes: parser.attributes(),
             unmatched_ignores: parser.unmatched_ignores().cloned().collect(),
-            predicates,
-            traces,
+            traces: once,
+            repeated,
         }
     }
 

@@ -8,7 +8,6 @@ use typelift_model::{Hierarchy, ParseConfig};
 
 use crate::line_reader::LINE_LIMIT;
 use crate::object_types::files_of;
-use crate::text_file::text_from;
 use crate::trace_file::trace_from;
 use crate::trajectory_file::trajectory_from;
 use crate::{Dataset, FileError, Parser, Trace, TraceReader, TrajectoryContext};
@@ -54,7 +53,7 @@ pub fn any_trace_from(
     };
     let input = Cursor::new(blank).chain(input);
     if is_trajectory {
-        trajectory_from(path, &text_from(path, input)?, context, parser)
+        trajectory_from(path, input, context, parser)
     } else {
         trace_from(path, TraceReader::new(path, input)?, parser)
     }
@@ -143,9 +142,11 @@ mod tests {
         let files = [("b.jsonl", TRACE), ("a.trajectory", "\n; SAM\n((:init (on a b)))"), ("notes.txt", "x")];
         let dataset = read(&files, &["", "b.jsonl"]).expect("a dataset");
         let names: Vec<&str> = dataset.traces.iter().filter_map(|t| Some(t.file.as_ref()?.as_str())).collect();
-        assert_eq!(names, ["a.trajectory", "b.jsonl", "b.jsonl"]);
-        let predicates: Vec<(&str, usize)> = dataset.predicates.iter().map(|(p, n)| (p.as_str(), *n)).collect();
-        assert_eq!(predicates, [("free", 1), ("on", 2)]);
+        assert_eq!(names, ["a.trajectory", "b.jsonl"]);
+        let repeated: Vec<(&str, &str)> =
+            dataset.repeated.iter().map(|again| (again.file.as_str(), again.first.as_str())).collect();
+        assert_eq!(repeated, [("b.jsonl", "b.jsonl")]);
+        assert!(dataset.attributes.keys().eq(["free", "on"]));
     }
 
     #[test]

@@ -3,7 +3,10 @@
 use std::io::{BufRead, Read};
 use std::path::{Path, PathBuf};
 
+use typelift_model::SourceId;
+
 use crate::FileError;
+use crate::source::SourceHasher;
 use crate::text_file::not_utf8;
 
 /// Bytes that a line may have: 64 MB.
@@ -16,6 +19,7 @@ pub(crate) struct LineReader<R> {
     limit: usize,
     line: usize,
     buffer: Vec<u8>,
+    read: SourceHasher,
 }
 
 /// A line without its end.
@@ -30,7 +34,7 @@ pub(crate) struct Line<'a> {
 
 impl<R: BufRead> LineReader<R> {
     pub(crate) fn new(path: &Path, input: R, limit: usize) -> Self {
-        Self { path: path.to_owned(), input, limit, line: 0, buffer: Vec::new() }
+        Self { path: path.to_owned(), input, limit, line: 0, buffer: Vec::new(), read: SourceHasher::default() }
     }
 
     pub(crate) fn path(&self) -> &Path {
@@ -42,6 +46,11 @@ impl<R: BufRead> LineReader<R> {
         self.line
     }
 
+    /// Which source the lines read so far are.
+    pub(crate) fn source(&self) -> SourceId {
+        self.read.clone().finish()
+    }
+
     /// The next line. A line that is too long is refused when the limit is reached, not at its end.
     pub(crate) fn next_line(&mut self) -> Result<Option<Line<'_>>, FileError> {
         self.buffer.clear();
@@ -51,6 +60,7 @@ impl<R: BufRead> LineReader<R> {
             return Ok(None);
         }
         self.line += 1;
+        self.read.update(&self.buffer);
         let complete = self.buffer.last() == Some(&b'\n');
         if !complete && self.buffer.len() > self.limit {
             let what = format!("this line is longer than {}", shown_bytes(self.limit));

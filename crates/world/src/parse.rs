@@ -140,14 +140,9 @@ impl Parser {
         &self.config
     }
 
-    /// Every predicate met so far, with its number of arguments.
-    pub fn predicates(&self) -> BTreeMap<Symbol, usize> {
-        self.sources.iter().map(|(name, source)| (name.clone(), source.arity)).collect()
-    }
-
-    /// The attribute or relation that a predicate comes from; of a predicate of symbolic states, itself.
-    pub fn source(&self, predicate: &str) -> Option<&Symbol> {
-        self.sources.get(predicate).map(|source| &source.name)
+    /// The attribute or relation that each predicate met so far comes from; of a predicate of symbolic states, itself.
+    pub fn attributes(&self) -> BTreeMap<Symbol, Symbol> {
+        self.sources.iter().map(|(predicate, source)| (predicate.clone(), source.name.clone())).collect()
     }
 
     /// What was to be ignored and was never met.

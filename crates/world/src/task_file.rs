@@ -1,11 +1,10 @@
 //! Task files, format `task/1`: a goal with the state to start from, or with what an environment is to set up.
 
-use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
-use typelift_model::{Goal, GoalError, GroundAtom, Symbol, Task};
+use typelift_model::{ArgumentTypes, Goal, GoalError, GroundAtom, Task};
 
 use crate::entity_line::UnreadKeys;
 use crate::trace_line::SceneLine;
@@ -105,7 +104,7 @@ impl TaskFile {
     ///
     /// # Errors
     /// [`TaskError`] if there is no state, or goal and state do not fit each other or the model.
-    pub fn task(&self, parser: &mut Parser, predicates: &BTreeMap<Symbol, usize>) -> Result<Task, TaskError> {
+    pub fn task(&self, parser: &mut Parser, predicates: &ArgumentTypes) -> Result<Task, TaskError> {
         let scene = self.state.as_ref().ok_or(TaskError::NoState)?;
         let init = parser.parse(scene).map_err(TaskError::State)?;
         let goal = Goal::from(self.goal.clone());

@@ -25,7 +25,7 @@ pub fn text_from(name: &Path, mut input: impl Read) -> Result<String, FileError>
     text_of(name, bytes)
 }
 
-fn text_of(path: &Path, bytes: Vec<u8>) -> Result<String, FileError> {
+pub(crate) fn text_of(path: &Path, bytes: Vec<u8>) -> Result<String, FileError> {
     let mut text = String::from_utf8(bytes).map_err(|error| {
         let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let line = 1 + valid.iter().filter(|&&b| b == b'\n').count();

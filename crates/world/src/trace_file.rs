@@ -44,7 +44,7 @@ pub(crate) fn trace_from<R: BufRead>(
         }
         state_line = line;
     }
-    Ok(Trace { warnings: reader.warnings(), ..checked.trace })
+    Ok(Trace { warnings: reader.warnings(), source: Some(reader.source()), ..checked.trace })
 }
 
 /// A trace, checked as it grows.

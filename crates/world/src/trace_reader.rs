@@ -4,6 +4,8 @@ use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 
+use typelift_model::SourceId;
+
 use crate::entity_line::UnreadKeys;
 use crate::line_reader::{LINE_LIMIT, Line, LineReader};
 use crate::trace_line::{BodyLine, HeaderLine, TRACE_FORMAT};
@@ -95,6 +97,11 @@ impl<R: BufRead> TraceReader<R> {
     /// The number of the line read last, from 1: that of a state.
     pub fn line(&self) -> usize {
         self.lines.line()
+    }
+
+    /// Which source it is: the SHA-256 of what was read so far, so of the whole file at its end.
+    pub fn source(&self) -> SourceId {
+        self.lines.source()
     }
 
     /// What is probably not meant, in what was read so far.

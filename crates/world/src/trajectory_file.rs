@@ -4,13 +4,17 @@
 //! false, all of them are open: what is listed neither way is unknown. [`Unlisted`] says otherwise.
 
 use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 
 use typelift_model::{GroundAtom, Hierarchy, Symbol, Unknown, did_you_mean};
 use typelift_pddl::{PddlError, Span, Trajectory, TrajectoryState};
 
+use crate::source::SourceHasher;
+use crate::text_file::text_of;
 use crate::trace_file::file_name;
-use crate::{FileError, ObjectTypes, ParseError, ParseErrorKind, Parser, Trace, TraceAction, read_text};
+use crate::{FileError, ObjectTypes, ParseError, ParseErrorKind, Parser, Trace, TraceAction};
 
 /// What trajectory files do not say themselves.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -44,20 +48,27 @@ pub enum Unlisted {
 /// # Errors
 /// [`FileError`] if it is malformed, or an object's type is not given or not in the hierarchy.
 pub fn read_trajectory(path: &Path, context: &TrajectoryContext, parser: &mut Parser) -> Result<Trace, FileError> {
-    trajectory_from(path, &read_text(path)?, context, parser)
+    let file = File::open(path).map_err(|error| FileError::from_io(path, &error))?;
+    trajectory_from(path, file, context, parser)
 }
 
 pub(crate) fn trajectory_from(
     path: &Path,
-    text: &str,
+    mut input: impl Read,
     context: &TrajectoryContext,
     parser: &mut Parser,
 ) -> Result<Trace, FileError> {
+    let mut bytes = Vec::new();
+    input.read_to_end(&mut bytes).map_err(|error| FileError::from_io(path, &error))?;
+    let mut hasher = SourceHasher::default();
+    hasher.update(&bytes);
+    let source = hasher.finish();
+    let text = &text_of(path, bytes)?;
     let located = |error: PddlError| FileError::from_pddl(path, text, error);
     let trajectory = typelift_pddl::read_trajectory(text).map_err(located)?;
     let given = context.types.of_trajectory(path)?;
     let objects = typed_objects(text, &trajectory, &given, parser.hierarchy()).map_err(located)?;
-    let mut trace = Trace { file: file_name(path), ..Trace::default() };
+    let mut trace = Trace { file: file_name(path), source: Some(source), ..Trace::default() };
     let open = match context.unlisted {
         Unlisted::AsListed => trajectory.states.iter().any(|state| !state.negated.is_empty()),
         Unlisted::False => false,

@@ -1,12 +1,11 @@
 //! Task files: what is read, what is refused and with which words, and that writing and reading are inverse.
 
-use std::collections::BTreeMap;
 use std::path::Path;
 
 use proptest::prelude::*;
 use serde_json::json;
 use typelift_model::testing::cases;
-use typelift_model::{GroundAtom, Hierarchy, ParseConfig, Symbol};
+use typelift_model::{ArgumentTypes, GroundAtom, Hierarchy, ParseConfig, Symbol};
 use typelift_world::{FileError, Parser, Scene, TaskFile, read_task, write_file, write_task};
 
 fn read(text: &str) -> Result<TaskFile, FileError> {
@@ -21,8 +20,9 @@ fn parser() -> Parser {
     Parser::new(hierarchy, ParseConfig::default())
 }
 
-fn predicates() -> BTreeMap<Symbol, usize> {
-    [("on_top", 2), ("free", 1)].map(|(name, arity)| (Symbol::new(name), arity)).into()
+fn predicates() -> ArgumentTypes {
+    let block = parser().hierarchy().id("block").expect("a type");
+    [("on_top", 2), ("free", 1)].map(|(name, arity)| (Symbol::new(name), vec![block; arity])).into()
 }
 
 fn task(goal: &str) -> Result<String, (String, Option<String>)> {

@@ -28,7 +28,7 @@ pub fn model(bytes: &[u8]) {
     let strict = strict(model);
     assert_kept(&LearnedModel { model: strict.clone(), ..learned.clone() });
     // It may speak of a type that is not in the hierarchy.
-    let _ = learn(&model.hierarchy, evidence, &Options::default());
+    let _ = learn(&model.hierarchy, &evidence.total(), &Options::default());
     valid_plans(&strict, &small_task(model));
 }
 

@@ -20,7 +20,8 @@ pub fn task(bytes: &[u8]) {
     assert_eq!(again, task);
     assert_eq!(again.to_json(), written);
     let mut parser = Parser::new(sample::hierarchy(), ParseConfig::default());
-    let predicates = task.goal.iter().map(|atom| (atom.predicate.clone(), atom.arity())).collect();
+    let root = parser.hierarchy().root();
+    let predicates = task.goal.iter().map(|atom| (atom.predicate.clone(), vec![root; atom.arity()])).collect();
     match task.task(&mut parser, &predicates) {
         Ok(planned) => assert_eq!(planned.goal, task.goal.into()),
         Err(error) => assert_shown(&error.in_file(Path::new("task"), &parser), bytes),

@@ -43,7 +43,7 @@ fn models_that_are_none() {
 #[test]
 fn models_that_contradict_themselves() {
     type Change = fn(&mut Value);
-    let changes: [(&str, Change); 26] = [
+    let changes: [(&str, Change); 30] = [
         ("a cycle of types", |m| m["types"] = json!([["a", "b"], ["b", "a"]])),
         ("a type with two parents", |m| push(&mut m["types"], json!(["agent", "food"]))),
         ("half a pair of types", |m| push(&mut m["types"], json!(["alone"]))),
@@ -57,8 +57,8 @@ fn models_that_contradict_themselves() {
         ("an inequality with itself", |m| m["actions"][0]["distinct"] = json!([[0, 0]])),
         ("an unknown predicate", |m| m["actions"][0]["preconditions"][0] = json!("asleep(?1)")),
         ("a wrong arity", |m| m["actions"][0]["preconditions"][0] = json!("free(?1,?0)")),
-        ("a huge arity", |m| m["predicates"]["huge"] = json!(u64::MAX)),
-        ("names that PDDL does not tell apart", |m| m["predicates"]["FREE"] = json!(1)),
+        ("a huge arity", |m| m["predicates"]["huge"] = json!(vec!["object"; 300])),
+        ("names that PDDL does not tell apart", |m| m["predicates"]["FREE"] = json!(["object"])),
         ("an action twice", |m| m["actions"][0]["name"] = m["actions"][1]["name"].clone()),
         ("an action without a name", |m| m["actions"][0]["name"] = json!("")),
         ("a name that is none", |m| m["actions"][0]["call"]["name"] = json!("USE (it)")),
@@ -71,7 +71,11 @@ fn models_that_contradict_themselves() {
         ("no call", |m| drop(m["actions"][0].as_object_mut().and_then(|action| action.remove("call")))),
         ("evidence that is not there", |m| m["actions"][0]["provenance"]["generalized"][0]["cluster"] = json!(999)),
         ("evidence about more", |m| m["evidence"]["clusters"][0]["adds"] = json!(["free(?99)"])),
-        ("evidence beyond counting", |m| m["evidence"]["clusters"][0]["count"] = json!(u64::MAX)),
+        ("evidence beyond counting", |m| m["evidence"]["clusters"][0]["seen"][0]["count"] = json!(u64::MAX)),
+        ("a source that is not there", |m| m["evidence"]["clusters"][0]["seen"][0]["source"] = json!(99)),
+        ("no source", |m| m["evidence"]["clusters"][0]["seen"][0]["source"] = json!(null)),
+        ("one source twice", |m| m["evidence"]["sources"][1] = m["evidence"]["sources"][0].clone()),
+        ("an id that is none", |m| m["evidence"]["sources"][0]["id"] = json!("abc")),
     ];
     let folder = Folder::kitchen();
     let mut transcript = Transcript::default();

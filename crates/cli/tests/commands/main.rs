@@ -14,6 +14,7 @@ mod help;
 mod lab;
 mod lab_report;
 mod learning;
+mod learning_more;
 mod limits;
 mod outputs;
 mod pddl_files;

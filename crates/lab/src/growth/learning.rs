@@ -1,7 +1,7 @@
 //! Learning from a stream of transitions, measured: each is observed once and forgotten.
 
 use typelift::learn::{Learned, Options, learn, observe};
-use typelift::model::{Evidence, LearnedModel, ParseConfig, Stop};
+use typelift::model::{Evidence, LearnedModel, Observations, ParseConfig, SourceId, Stop, Symbol};
 use typelift::world::Record;
 use typelift_kitchen::hierarchy;
 
@@ -16,7 +16,7 @@ const CHUNK: u64 = 50;
 /// reading its snapshots; with more than the allowed seconds of it, the measurement is cut.
 pub(crate) fn measure(transitions: u64, seconds: f64) -> Measurement {
     let hierarchy = hierarchy();
-    let (mut play, mut evidence, mut observing) = (Play::new(0), Evidence::default(), 0.0);
+    let (mut play, mut evidence, mut observing) = (Play::new(0), Observations::default(), 0.0);
     let (mut end, mut left) = (End::Finished, transitions);
     while left > 0 {
         let chunk: Vec<Record> = (0..left.min(CHUNK)).map(|_| play.next()).collect();
@@ -34,7 +34,13 @@ pub(crate) fn measure(transitions: u64, seconds: f64) -> Measurement {
     let begun = Stopwatch::start();
     let Learned { model, report } = learn(&hierarchy, &evidence, &Options::default()).expect("the kitchen's own types");
     let spent = observing + begun.seconds();
-    let learned = LearnedModel { model, parse: ParseConfig::default(), evidence };
+    let learned = LearnedModel {
+        model,
+        parse: ParseConfig::default(),
+        options: Options::default(),
+        // One long trace.
+        evidence: Evidence::from_iter([(SourceId::new([0; 32]), Symbol::new("play"), evidence)]),
+    };
     let model_bytes = learned.to_json().map_or(0, |text| text.len() as u64);
     Measurement {
         actions: Some(report.generalized as u64),

@@ -101,7 +101,8 @@ pub fn tiny(most: usize) -> impl Strategy<Value = Tiny> {
             let objects = kinds.iter().enumerate().map(|(i, &t)| (Symbol::new(OBJECTS[i]), ty(t))).collect();
             let atoms = init.into_iter().map(|drawn| ground((n, drawn))).collect();
             let init = State { objects, atoms, ..State::default() };
-            let predicates = PREDICATES.iter().map(|(name, n)| (Symbol::new(name), *n)).collect();
+            let predicates =
+                PREDICATES.iter().map(|(name, n)| (Symbol::new(name), vec![hierarchy.root(); *n])).collect();
             let model = ActionModel { hierarchy: hierarchy.clone(), predicates, actions, ..ActionModel::default() };
             let mut task = Task::new(init, Goal::default());
             // Mostly what is reachable, and the hardest of that: anything else is unsolvable, or solved in a step.

@@ -4,7 +4,7 @@
 
 use std::collections::BTreeMap;
 
-use typelift_model::{Atom, Hierarchy, LiftedAtom, Literal, Parameter, Symbol, Term, TypeId};
+use typelift_model::{ArgumentTypes, Atom, Hierarchy, LiftedAtom, Literal, Parameter, Symbol, Term, TypeId};
 
 use super::error::{CompileError, CompilePart};
 use super::invent::Inventions;
@@ -20,8 +20,8 @@ pub(super) struct World<'w> {
     pub(super) hierarchy: &'w Hierarchy,
     /// The objects that may be mentioned.
     pub(super) objects: &'w BTreeMap<Symbol, TypeId>,
-    /// The predicates with their numbers of arguments.
-    pub(super) predicates: &'w BTreeMap<Symbol, usize>,
+    /// The predicates with the types of their arguments.
+    pub(super) predicates: &'w ArgumentTypes,
     /// How large the model may become.
     pub(super) limits: Limits,
 }
@@ -147,9 +147,10 @@ impl<'w> Block<'w> {
     /// An atom of a predicate over the variables of the block.
     pub(super) fn atom(&self, atom: &PddlAtom, visible: &Visible<'_>) -> Result<LiftedAtom, CompileError> {
         match self.world.predicates.get(&atom.predicate) {
-            Some(&arity) if arity == atom.arity() => self.function(atom, visible),
-            Some(arity) => {
-                Err(self.error(format!("{atom} has {} arguments, its predicate takes {arity}", atom.arity())))
+            Some(types) if types.len() == atom.arity() => self.function(atom, visible),
+            Some(types) => {
+                let (has, takes) = (atom.arity(), types.len());
+                Err(self.error(format!("{atom} has {has} arguments, its predicate takes {takes}")))
             }
             None => Err(self.error(format!("there is no predicate `{}`", atom.predicate))),
         }

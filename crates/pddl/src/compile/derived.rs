@@ -20,7 +20,7 @@ pub(super) fn compile_derived(
     let name = &derived.head.name;
     let mut block = Block::new(CompilePart::Derived(name.clone()), name.clone(), world, inventions);
     match world.predicates.get(name) {
-        Some(&arity) if arity == derived.head.parameters.len() => {}
+        Some(types) if types.len() == derived.head.parameters.len() => {}
         _ => return Err(block.error("no predicate of this name and number of arguments is declared")),
     }
     let mut visible = Visible::new();

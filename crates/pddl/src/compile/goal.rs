@@ -27,7 +27,7 @@ pub(super) fn compile_goal(
     let literals = match goal_literals(&mut block, &parts)? {
         Some(literals) => literals,
         None => {
-            vec![Literal::positive(Atom { predicate: inventions.predicate("unsatisfiable-goal", 0), args: Vec::new() })]
+            vec![Literal::positive(Atom { predicate: inventions.predicate("unsatisfiable-goal"), args: Vec::new() })]
         }
     };
     let mut compiled = Goal::default();

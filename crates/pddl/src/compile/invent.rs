@@ -17,8 +17,8 @@ type Rule = (Vec<TypeId>, Vec<Term>, Vec<Literal>);
 #[derive(Debug)]
 pub(super) struct Inventions {
     names: FreshNames,
-    /// What was invented, with its number of arguments.
-    pub(super) predicates: BTreeMap<Symbol, usize>,
+    /// What was invented.
+    predicates: BTreeSet<Symbol>,
     /// The axioms, of stated and of invented predicates; the strata are still to be found.
     pub(super) axioms: Vec<Axiom>,
     known: BTreeMap<Vec<Rule>, Symbol>,
@@ -30,20 +30,25 @@ impl Inventions {
     /// None yet, for a model that uses these names for predicates and functions.
     pub(super) fn new(used: impl IntoIterator<Item = Symbol>) -> Self {
         let names = FreshNames::with(used);
-        Self { names, predicates: BTreeMap::new(), axioms: Vec::new(), known: BTreeMap::new(), literals: 0 }
+        Self { names, predicates: BTreeSet::new(), axioms: Vec::new(), known: BTreeMap::new(), literals: 0 }
     }
 
     /// A new predicate without axioms.
-    pub(super) fn predicate(&mut self, base: &str, arity: usize) -> Symbol {
+    pub(super) fn predicate(&mut self, base: &str) -> Symbol {
         let name = self.names.numbered(base, 1);
-        self.predicates.insert(name.clone(), arity);
+        self.predicates.insert(name.clone());
         name
     }
 
     /// Writes what was invented into the model.
     pub(super) fn finish(self, model: &mut ActionModel) {
-        model.predicates.extend(self.predicates);
         model.axioms.extend(self.axioms);
+        let mut uses = model.argument_uses();
+        for name in self.predicates {
+            // One that nothing uses is of a goal that can never hold, and has no arguments.
+            let types = uses.remove(&name).unwrap_or_default();
+            model.predicates.insert(name, types);
+        }
     }
 }
 
@@ -71,7 +76,7 @@ impl Block<'_> {
         let predicate = match self.inventions.known.get(&rules) {
             Some(known) => known.clone(),
             None => {
-                let predicate = self.inventions.predicate(name, free.len());
+                let predicate = self.inventions.predicate(name);
                 for axiom in &mut axioms {
                     axiom.head.predicate = predicate.clone();
                 }

@@ -27,7 +27,7 @@ mod tests;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use typelift_model::{ActionModel, Cost, GroundAtom, Hierarchy, ROOT, State, Symbol, Task, TypeId};
+use typelift_model::{ActionModel, ArgumentTypes, Cost, GroundAtom, Hierarchy, ROOT, State, Symbol, Task, TypeId};
 
 pub use error::{CompileError, CompilePart};
 
@@ -58,8 +58,14 @@ fn domain_within(domain: &Domain, limits: Limits) -> Result<ActionModel, Compile
         Hierarchy::from_edges(edges).map_err(|error| CompileError::new(&CompilePart::Types, error.to_string()))?;
     let mut constants = BTreeMap::new();
     add_objects(&mut constants, &domain.constants, &hierarchy, &CompilePart::Constants)?;
-    let predicates: BTreeMap<Symbol, usize> =
-        domain.predicates.iter().map(|predicate| (predicate.name.clone(), predicate.parameters.len())).collect();
+    // An argument that may be of either of several types gets the lowest that covers them.
+    let ty = |typed: &Typed| {
+        let types = typed.types.iter().filter_map(|ty| hierarchy.id(ty.as_str()));
+        types.reduce(|a, b| hierarchy.lca(a, b)).unwrap_or(hierarchy.root())
+    };
+    let declared = domain.predicates.iter();
+    let predicates: ArgumentTypes =
+        declared.map(|predicate| (predicate.name.clone(), predicate.parameters.iter().map(ty).collect())).collect();
     derived::check_derived(domain)?;
 
     let world = World { hierarchy: &hierarchy, objects: &constants, predicates: &predicates, limits };
@@ -83,10 +89,16 @@ fn domain_within(domain: &Domain, limits: Limits) -> Result<ActionModel, Compile
     if !domain.actions.iter().any(|action| increases(&action.effect)) {
         actions.iter_mut().for_each(|action| action.cost = Cost::UNIT);
     }
-    let mut model = ActionModel { predicates: predicates.clone(), actions, ..ActionModel::default() };
+    let mut model = ActionModel {
+        predicates: predicates.clone(),
+        actions,
+        hierarchy: hierarchy.clone(),
+        constants: constants.clone(),
+        ..ActionModel::default()
+    };
     inventions.finish(&mut model);
     derived::stratify(&mut model, |name| predicates.contains_key(name))?;
-    Ok(ActionModel { hierarchy, constants, ..model })
+    Ok(model)
 }
 
 /// The task of a problem of the domain that the model was compiled from.

@@ -79,9 +79,11 @@ impl Complements {
     /// Declares them, and replaces what they stand for. Of the preconditions only those are written that are in
     /// `lean`; all of them tell what the effects come to.
     pub(super) fn in_model(&self, model: &mut ActionModel, lean: &ActionModel) -> Result<(), ExportError> {
-        for complement in self.of.values() {
-            let arity = complement.uses.first().map_or(0, Vec::len);
-            model.predicates.insert(complement.name.clone(), arity);
+        for ((predicate, _), complement) in &self.of {
+            let of_use = |places: &Vec<Place>| places.iter().map(|place| self.ty(place, places, model)).collect();
+            let types = model.predicates.get(predicate).cloned();
+            let types = types.or_else(|| complement.uses.first().map(of_use)).unwrap_or_default();
+            model.predicates.insert(complement.name.clone(), types);
         }
         let hierarchy = &model.hierarchy;
         for (action, lean) in model.actions.iter_mut().zip(&lean.actions) {
@@ -95,6 +97,14 @@ impl Complements {
             }
         }
         Ok(())
+    }
+
+    fn ty(&self, place: &Place, places: &[Place], model: &ActionModel) -> TypeId {
+        match place {
+            Place::Of(ty) => *ty,
+            Place::Object(name) => self.constants.get(name).copied().unwrap_or(model.hierarchy.root()),
+            Place::Same(earlier) => self.ty(&places[*earlier], places, model),
+        }
     }
 
     /// The effects on complements that go with an action's effects.

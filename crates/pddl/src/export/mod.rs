@@ -123,7 +123,7 @@ pub fn export(model: &ActionModel, task: Option<&Task>, options: &ExportOptions)
     }
     let (model, task) = (model.as_ref(), task.as_deref());
     let names = ExportNames::of(model, task, options)?;
-    let types = argument_types::ArgumentTypes::of(model, task);
+    let types = argument_types::Declared::of(model, task);
     let writer = Writer { model, task, names: &names, types, options };
     let mut domain = writer.domain(notes);
     let problem = task.map(|task| writer.problem(task, &domain));
@@ -138,6 +138,6 @@ struct Writer<'a> {
     model: &'a ActionModel,
     task: Option<&'a Task>,
     names: &'a ExportNames,
-    types: argument_types::ArgumentTypes,
+    types: argument_types::Declared,
     options: &'a ExportOptions,
 }

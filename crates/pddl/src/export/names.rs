@@ -89,7 +89,7 @@ pub(super) fn predicates<'a>(model: &'a ActionModel, task: Option<&'a Task>) -> 
     let of_task = |task: &'a Task| task.init.atoms.iter().chain(task.goal.literals().map(|(atom, _)| atom));
     let mentioned = task.into_iter().flat_map(of_task).map(|atom: &GroundAtom| (&atom.predicate, atom.args.len()));
     let mut all: BTreeMap<&Symbol, usize> = mentioned.collect();
-    all.extend(model.predicates.iter().map(|(name, arity)| (name, *arity)));
+    all.extend(model.predicates.iter().map(|(name, types)| (name, types.len())));
     all.retain(|name, _| name.as_str() != EQUALS);
     all
 }

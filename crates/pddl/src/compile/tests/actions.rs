@@ -53,7 +53,7 @@ fn what_holds_for_all_becomes_the_negation_of_an_exception() {
         ["go go(?0) [q:place] not forall-go-1(?0) => wet()", "same same(?0) [p:place] not forall-go-1(?0) => wet()"]
     );
     assert_eq!(axioms(&model), ["0 forall-go-1(?0) [q:place u:truck] at(?1,?0) & not clean(?1)"]);
-    assert_eq!(model.predicates.get("forall-go-1"), Some(&1));
+    assert_eq!(model.predicates.get("forall-go-1"), Some(&vec![model.hierarchy.id("place").expect("a type")]));
     assert_eq!(go("", forall("v - truck", and([]))), ["go go() []  => wet()"]);
     assert_eq!(go("", forall("v - truck", or([]))), ["go go() [] not forall-go-1() => wet()"]);
 }

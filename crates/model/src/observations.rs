@@ -1,6 +1,6 @@
 //! What was observed, folded up: the only thing that learning sees.
 //!
-//! Evidence is keyed by names and canonical labels. Adding transitions in any order, in any split, and merging the
+//! Observations are keyed by names and canonical labels. Adding transitions in any order, in any split, and merging the
 //! parts gives the same value, and its size is bounded by the number of different lifted effects and pre-states,
 //! not by the number of transitions.
 
@@ -258,11 +258,13 @@ pub enum Unexplained {
     TimedOut,
 }
 
-/// Everything learned from, as a value that merges.
+/// What was observed in one source, or in many: a value that merges.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Evidence {
+pub struct Observations {
     /// The number of transitions seen, of any kind.
     pub transitions: u64,
+    /// Every predicate met, with the types of the objects that were met as each of its arguments.
+    pub predicates: BTreeMap<Symbol, Vec<BTreeSet<Symbol>>>,
     /// Transitions that changed something, by action and lifted effect.
     pub clusters: BTreeMap<ClusterKey, Cluster>,
     /// Failures: transitions that were not executed, or changed nothing.
@@ -271,7 +273,25 @@ pub struct Evidence {
     pub unexplained: BTreeMap<Unexplained, (u64, BTreeSet<Witness>)>,
 }
 
-impl Evidence {
+impl Observations {
+    /// Adds an atom that was met: its predicate, and the types of its objects as far as they are named.
+    pub fn add_predicate<'a>(&mut self, predicate: &Symbol, types: impl IntoIterator<Item = Option<&'a Symbol>>) {
+        if !self.predicates.contains_key(predicate) {
+            self.predicates.insert(predicate.clone(), Vec::new());
+        }
+        let Some(known) = self.predicates.get_mut(predicate) else { return };
+        for (position, ty) in types.into_iter().enumerate() {
+            if position == known.len() {
+                known.push(BTreeSet::new());
+            }
+            if let Some(ty) = ty
+                && !known[position].contains(ty)
+            {
+                known[position].insert(ty.clone());
+            }
+        }
+    }
+
     /// Adds a transition that nothing explains.
     pub fn add_unexplained(&mut self, reason: Unexplained, witness: Witness) {
         let entry = self.unexplained.entry(reason).or_default();
@@ -282,6 +302,11 @@ impl Evidence {
     /// Adds everything that another holds.
     pub fn merge(&mut self, other: &Self) {
         self.transitions += other.transitions;
+        for (predicate, types) in &other.predicates {
+            let known = self.predicates.entry(predicate.clone()).or_default();
+            known.resize(known.len().max(types.len()), BTreeSet::new());
+            known.iter_mut().zip(types).for_each(|(known, types)| known.extend(types.iter().cloned()));
+        }
         for (key, cluster) in &other.clusters {
             self.clusters.entry(key.clone()).or_default().merge(cluster);
         }
@@ -293,6 +318,17 @@ impl Evidence {
             entry.0 += count;
             keep_smallest(&mut entry.1, witnesses.iter().cloned());
         }
+    }
+
+    /// The same, observed in a file of this name.
+    pub fn renamed(&self, file: &Symbol) -> Self {
+        let mut renamed = self.clone();
+        let clusters = renamed.clusters.values_mut().chain(renamed.negatives.values_mut()).map(|c| &mut c.witnesses);
+        for witnesses in clusters.chain(renamed.unexplained.values_mut().map(|(_, witnesses)| witnesses)) {
+            let steps = std::mem::take(witnesses).into_iter().map(|witness| witness.step);
+            witnesses.extend(steps.map(|step| Witness { file: file.clone(), step }));
+        }
+        renamed
     }
 
     /// Transitions that were not executed, or changed nothing.

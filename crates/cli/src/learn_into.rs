@@ -1,0 +1,103 @@
+//! What `learn` begins with: nothing but types, or a model that demonstrations are added to or taken out of.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use typelift::learn::Options;
+use typelift::model::{Evidence, LearnedModel, MergeError, ParseConfig, SourceId, Symbol};
+use typelift::world::{FileError, read_hierarchy, source_of_file};
+
+use crate::failure::Failure;
+use crate::files::{ModelInput, read_model_input};
+
+/// Digits that tell a source.
+const FEWEST_DIGITS: usize = 4;
+
+/// A model without anything that it was learned from, or as it is in its file.
+pub(crate) fn beginning(
+    into: Option<&PathBuf>,
+    types: Option<&PathBuf>,
+    ignore: BTreeSet<Symbol>,
+) -> Result<LearnedModel, Failure> {
+    let types = types.map(|path| Ok::<_, FileError>((path, read_hierarchy(path)?))).transpose()?;
+    let Some(path) = into else {
+        let mut none = LearnedModel { parse: ParseConfig { ignore }, ..LearnedModel::default() };
+        none.model.hierarchy = types.map(|(_, hierarchy)| hierarchy).unwrap_or_default();
+        return Ok(none);
+    };
+    let ModelInput::Learned(learned) = read_model_input(path, None)? else {
+        return Err(Failure::bad_input(format!("{}: this is a PDDL domain, not a learned model", path.display())));
+    };
+    if let Some((given, hierarchy)) = types {
+        let agreed = learned.agrees(&hierarchy, &learned.parse);
+        agreed.map_err(|error| Failure::bad_input(format!("--types {}: {error}", given.display())))?;
+    }
+    if !ignore.is_empty() {
+        let agreed = learned.agrees(&learned.model.hierarchy, &ParseConfig { ignore });
+        agreed.map_err(|error| Failure::bad_input(format!("--ignore: {error}")))?;
+    }
+    Ok(*learned)
+}
+
+/// What learning is asked for: as before, but for what is said now.
+pub(crate) fn options(before: &Options, now: Options) -> Options {
+    Options { individual: before.individual || now.individual, actor: now.actor.or_else(|| before.actor.clone()) }
+}
+
+/// Takes sources out: each by a file with its content, by its name, or by the first digits of its id.
+pub(crate) fn forget(evidence: &mut Evidence, into: &Path, sources: &[String]) -> Result<(), Failure> {
+    for text in sources {
+        if evidence.sources().is_empty() && evidence.is_compact() {
+            let error = format!("--forget {text}: {} does not say what it was learned from", into.display());
+            return Err(Failure::bad_input(error).with_hint("Learn it anew from its traces."));
+        }
+        let id = source_called(evidence, text)?;
+        evidence.take_out(id).map_err(|error| {
+            let hint = "Learn it anew from its traces, without `--compact`.";
+            Failure::bad_input(format!("--forget {text}: {}: {error}", into.display())).with_hint(hint)
+        })?;
+    }
+    Ok(())
+}
+
+fn source_called(evidence: &Evidence, text: &str) -> Result<SourceId, Failure> {
+    let path = Path::new(text);
+    if path.is_file() {
+        let id = source_of_file(path)?;
+        if evidence.sources().contains_key(&id) {
+            return Ok(id);
+        }
+    }
+    let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let digits = text.to_ascii_lowercase();
+    let called = |(id, is_called): (&SourceId, &Symbol)| {
+        *is_called == *name || digits.len() >= FEWEST_DIGITS && id.to_string().starts_with(&digits)
+    };
+    let known = evidence.sources().iter().map(|(id, source)| (id, &source.name));
+    let found: Vec<(&SourceId, &Symbol)> = known.clone().filter(|source| called(*source)).collect();
+    let listed = |sources: &mut dyn Iterator<Item = (&SourceId, &Symbol)>| {
+        sources.map(|(id, name)| format!("{name} ({})", id.short())).collect::<Vec<_>>().join(", ")
+    };
+    match found.as_slice() {
+        [(id, _)] => Ok(**id),
+        [] => Err(Failure::bad_input(format!("--forget {text}: the model was not learned from it"))
+            .with_hint(format!("It was learned from {}.", listed(&mut known.clone())))),
+        several => Err(Failure::bad_input(format!("--forget {text}: this may be any of several"))
+            .with_hint(format!("Say which by its id: {}.", listed(&mut several.iter().copied())))),
+    }
+}
+
+/// Adds what demonstrations show. Gives the sources that were there already.
+pub(crate) fn add(evidence: &mut Evidence, into: Option<&PathBuf>, shown: &Evidence) -> Result<Vec<SourceId>, Failure> {
+    evidence.merge(shown).map_err(|error| {
+        let hint = match &error {
+            MergeError::Shared(_) => "Leave them out, or learn anew without `--compact`.",
+            MergeError::ReadDifferently { .. } => {
+                "Give the same --problems, --objects, --closed or --open, or take it out with --forget first."
+            }
+            MergeError::UnknownSources => "Learn it anew from its traces.",
+        };
+        let place = into.map(|path| format!("{}: ", path.display())).unwrap_or_default();
+        Failure::bad_input(format!("{place}{error}")).with_hint(hint)
+    })
+}

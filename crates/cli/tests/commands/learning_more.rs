@@ -1,0 +1,109 @@
+//! `learn --into`: demonstrations are added to a model, and taken out again.
+
+use crate::common::{Folder, Transcript, names};
+
+/// A model of two demonstrations in `part.json`; the names of all eight.
+fn part() -> (Folder, Vec<String>) {
+    let folder = Folder::kitchen();
+    let demos = names(&folder.path("K/demos"));
+    let [first, second] = [&demos[5], &demos[2]];
+    folder.run(&format!("learn K/demos/{first} K/demos/{second} --types K/types.pddl -o part.json -q")).succeeds();
+    (folder, demos)
+}
+
+#[test]
+fn adding_is_learning_from_all_at_once() {
+    let (folder, demos) = part();
+    let before = folder.read("part.json");
+    let rest: Vec<String> =
+        demos.iter().enumerate().filter(|(i, _)| ![2, 5].contains(i)).map(|(_, d)| d.clone()).collect();
+    let paths: Vec<String> = rest.iter().rev().map(|demo| format!("K/demos/{demo}")).collect();
+    let (some, others) = paths.split_at(3);
+    let added = folder.run(&format!("learn --into part.json {} -o more.json", some.join(" ")));
+    added.succeeds();
+    assert!(folder.read("part.json") == before, "-o leaves the model as it is");
+    folder.run(&format!("learn --into more.json {} -q", others.join(" "))).succeeds();
+    assert!(folder.read("more.json") == folder.read("kitchen.json"), "the bytes of learning from all at once");
+    assert!(added.out.contains("from 5 demonstrations"), "{added}");
+    folder.run("learn --into part.json K/demos --dry-run").succeeds();
+    assert!(folder.read("part.json") == before, "a dry run writes nothing");
+    // What was asked of learning is asked again.
+    folder.run(&format!("learn {} --types K/types.pddl --individual -o i.json -q", paths.join(" "))).succeeds();
+    folder.run("learn --into i.json K/demos -q").succeeds();
+    folder.run("learn K/demos --types K/types.pddl --individual -o individual.json -q").succeeds();
+    assert!(folder.read("i.json") == folder.read("individual.json"));
+}
+
+#[test]
+fn the_same_trace_counts_once() {
+    let (folder, demos) = part();
+    folder.write("z.jsonl", folder.read(&format!("K/demos/{}", demos[3])));
+    let twice = folder.run("learn K/demos z.jsonl --types K/types.pddl -o twice.json");
+    assert!(folder.read("twice.json") == folder.read("kitchen.json"));
+    let again = folder.run("learn --into kitchen.json z.jsonl");
+    assert!(folder.read("twice.json") == folder.read("kitchen.json"));
+    let mut transcript = Transcript::default();
+    transcript.add("twice in one command", &twice);
+    transcript.add("in the model already", &again);
+    insta::assert_snapshot!(transcript.0);
+}
+
+#[test]
+fn what_is_forgotten_was_never_learned() {
+    let (folder, demos) = part();
+    let model = folder.read("kitchen.json");
+    let listed = folder.run("show kitchen.json --sources");
+    let id = listed.out.lines().find(|line| line.ends_with(&demos[4])).and_then(|line| line.split(' ').next());
+    let id = id.expect("it is listed");
+    let rest: Vec<String> =
+        demos.iter().enumerate().filter(|(i, _)| *i != 4).map(|(_, demo)| format!("K/demos/{demo}")).collect();
+    folder.run(&format!("learn {} --types K/types.pddl -o rest.json -q", rest.join(" "))).succeeds();
+    folder.write("copy.jsonl", folder.read(&format!("K/demos/{}", demos[4])));
+    for source in [demos[4].as_str(), "copy.jsonl", id] {
+        folder.write("m.json", &model);
+        folder.run(&format!("learn --into m.json --forget {source} -q")).succeeds();
+        assert!(folder.read("m.json") == folder.read("rest.json"), "{source}");
+    }
+    let mut transcript = Transcript::default();
+    transcript.add("the sources", &listed);
+    transcript.add("not learned from", &folder.refuses(31, "learn --into rest.json --forget copy.jsonl"));
+    insta::assert_snapshot!(transcript.0);
+}
+
+#[test]
+fn what_does_not_add_up_is_refused() {
+    let (folder, demos) = part();
+    let mut transcript = Transcript::default();
+    folder.run("learn --into part.json --compact -o compact.json -q").succeeds();
+    folder.run("learn K/demos --types K/types.pddl --compact -o all.json -q").succeeds();
+    let rest: Vec<String> =
+        demos.iter().enumerate().filter(|(i, _)| ![2, 5].contains(i)).map(|(_, d)| format!("K/demos/{d}")).collect();
+    folder.run(&format!("learn --into compact.json {} -o sum.json -q", rest.join(" "))).succeeds();
+    assert!(folder.read("sum.json") == folder.read("all.json"), "what is compact adds up as well");
+    folder.write("types.pddl", folder.read("K/types.pddl").replace("lettuce", "cabbage"));
+    folder.write("old.json", include_str!("../../../../fuzz/seeds/model/learned.json"));
+    let state = r#"{"state":{"objects":{"a":"arm"},"atoms":["free(a)"]}}"#;
+    folder.write("one.jsonl", format!("{{\"format\":\"trace/1\"}}\n{state}\n"));
+    for (title, command) in [
+        ("compact, and what it has already", format!("learn --into compact.json K/demos/{}", demos[5])),
+        ("compact, and something is to go", format!("learn --into compact.json --forget {}", demos[5])),
+        ("other types", "learn --into part.json K/demos --types types.pddl".to_owned()),
+        ("something else is ignored", "learn --into part.json K/demos --ignore free".to_owned()),
+        ("what it was learned from is unknown", "learn --into old.json --forget a.jsonl".to_owned()),
+        ("nor can anything be added to it", "learn --into old.json one.jsonl".to_owned()),
+        ("a domain", "learn --into K/types.pddl K/demos".to_owned()),
+    ] {
+        transcript.add(title, &folder.refuses(31, &command));
+    }
+    insta::assert_snapshot!(transcript.0);
+}
+
+#[test]
+fn models_of_the_format_before_are_read() {
+    let folder = Folder::new();
+    folder.write("old.json", include_str!("../../../../fuzz/seeds/model/learned.json"));
+    let mut transcript = Transcript::default();
+    transcript.add("show", &folder.run("show old.json"));
+    transcript.add("as a domain", &folder.run("show old.json --pddl"));
+    insta::assert_snapshot!(transcript.0);
+}

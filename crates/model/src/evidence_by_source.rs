@@ -1,0 +1,178 @@
+//! What a model was learned from, source by source.
+//!
+//! Evidence is a map from sources to what each contributes, and what is learned from is the sum. So parts can be added in
+//! any order and any split, a trace that is given twice counts once, and what a source contributed can be taken out
+//! again: the rest is as if it had never been there. Compact evidence keeps the sum and the names of the sources only.
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+use thiserror::Error;
+
+use crate::{Observations, Source, SourceId, Symbol};
+
+/// Everything that was observed, by source.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Evidence {
+    sources: BTreeMap<SourceId, Source>,
+    observed: Observed,
+}
+
+#[derive(Debug, Clone, PartialEq, Eq)]
+enum Observed {
+    /// What each source contributes.
+    BySource(BTreeMap<SourceId, Observations>),
+    /// The sum alone.
+    Total(Box<Observations>),
+}
+
+impl Default for Observed {
+    fn default() -> Self {
+        Self::BySource(BTreeMap::new())
+    }
+}
+
+/// Why two parts of evidence do not become one.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum MergeError {
+    /// Both hold these sources, and one has nothing but totals.
+    #[error("both hold {}, and one keeps totals only, so that it would count twice", listed(.0))]
+    Shared(Vec<(SourceId, Symbol)>),
+    /// The same trace was read with other types, or other assumptions.
+    #[error("{name} ({}) is in both, and was read in another way", .id.short())]
+    ReadDifferently {
+        /// The trace.
+        id: SourceId,
+        /// Its file's name.
+        name: Symbol,
+    },
+    /// A part does not name all that it was learned from, as in format 1.
+    #[error("it does not say what it was learned from, so that nobody could tell what would count twice")]
+    UnknownSources,
+}
+
+fn listed(sources: &[(SourceId, Symbol)]) -> String {
+    sources.iter().map(|(id, name)| format!("{name} ({})", id.short())).collect::<Vec<_>>().join(", ")
+}
+
+/// Why nothing can be taken out of compact evidence.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[error("it keeps totals only, and not what each source contributed")]
+pub struct CompactError;
+
+impl FromIterator<(SourceId, Symbol, Observations)> for Evidence {
+    /// What was observed in each source, which has a name for people. A source that comes twice counts once.
+    fn from_iter<I: IntoIterator<Item = (SourceId, Symbol, Observations)>>(all: I) -> Self {
+        let (mut sources, mut parts) = (BTreeMap::<SourceId, Source>::new(), BTreeMap::new());
+        for (id, name, observations) in all {
+            if sources.get(&id).is_none_or(|known| name < known.name) {
+                sources.insert(id, Source { name, transitions: observations.transitions });
+                parts.insert(id, observations);
+            }
+        }
+        Self { sources, observed: Observed::BySource(parts) }
+    }
+}
+
+impl Evidence {
+    /// A sum of which nobody knows, or keeps, what each of these sources contributed.
+    pub fn of_total(sources: BTreeMap<SourceId, Source>, total: Observations) -> Self {
+        Self { sources, observed: Observed::Total(Box::new(total)) }
+    }
+
+    /// The sources, by id.
+    pub fn sources(&self) -> &BTreeMap<SourceId, Source> {
+        &self.sources
+    }
+
+    /// Whether totals alone are kept.
+    pub fn is_compact(&self) -> bool {
+        matches!(self.observed, Observed::Total(_))
+    }
+
+    /// What each source contributes; of compact evidence the total, without a source.
+    pub fn parts(&self) -> Vec<(Option<SourceId>, &Observations)> {
+        match &self.observed {
+            Observed::BySource(parts) => parts.iter().map(|(id, part)| (Some(*id), part)).collect(),
+            Observed::Total(total) => vec![(None, total)],
+        }
+    }
+
+    /// The sum of all that was observed. In time of its size.
+    pub fn total(&self) -> Cow<'_, Observations> {
+        match self.parts().as_slice() {
+            [] => Cow::default(),
+            [(_, only)] => Cow::Borrowed(only),
+            parts => {
+                let mut total = Observations::default();
+                parts.iter().for_each(|(_, part)| total.merge(part));
+                Cow::Owned(total)
+            }
+        }
+    }
+
+    /// Adds everything that another holds, what both hold once. Gives the sources that both held.
+    ///
+    /// # Errors
+    /// [`MergeError`]; then nothing is added.
+    pub fn merge(&mut self, other: &Self) -> Result<Vec<SourceId>, MergeError> {
+        let shared: Vec<SourceId> = other.sources.keys().copied().filter(|id| self.sources.contains_key(id)).collect();
+        if let (Observed::BySource(parts), Observed::BySource(others)) = (&mut self.observed, &other.observed) {
+            for id in &shared {
+                // Under one name they are the same, unless they were read in different ways.
+                let name = &self.sources[id].name;
+                if parts[id].renamed(name) != others[id].renamed(name) {
+                    return Err(MergeError::ReadDifferently { id: *id, name: name.clone() });
+                }
+            }
+            for (id, source) in &other.sources {
+                if self.sources.get(id).is_none_or(|known| source.name < known.name) {
+                    self.sources.insert(*id, source.clone());
+                    parts.insert(*id, others[id].clone());
+                }
+            }
+            return Ok(shared);
+        }
+        if !self.names_all_sources() || !other.names_all_sources() {
+            return Err(MergeError::UnknownSources);
+        }
+        if !shared.is_empty() {
+            return Err(MergeError::Shared(
+                shared.into_iter().map(|id| (id, self.sources[&id].name.clone())).collect(),
+            ));
+        }
+        self.compact();
+        if let Observed::Total(total) = &mut self.observed {
+            total.merge(&other.total());
+        }
+        self.sources.extend(other.sources.clone());
+        Ok(shared)
+    }
+
+    /// Whether every transition is of a source that is named.
+    fn names_all_sources(&self) -> bool {
+        let named = self.sources.values().fold(0_u64, |sum, source| sum.saturating_add(source.transitions));
+        match &self.observed {
+            Observed::BySource(_) => true,
+            Observed::Total(total) => total.transitions == named,
+        }
+    }
+
+    /// Takes a source out: what is left is as if it had never been added. Gives whether it was there.
+    ///
+    /// # Errors
+    /// [`CompactError`] if totals alone are kept.
+    pub fn take_out(&mut self, id: SourceId) -> Result<bool, CompactError> {
+        let Observed::BySource(parts) = &mut self.observed else { return Err(CompactError) };
+        parts.remove(&id);
+        Ok(self.sources.remove(&id).is_some())
+    }
+
+    /// Keeps the totals and the names of the sources only. What the sources contributed is gone: nothing can be taken out
+    /// any more, and only parts that share no source can be added.
+    pub fn compact(&mut self) {
+        if !self.is_compact() {
+            self.observed = Observed::Total(Box::new(self.total().into_owned()));
+        }
+    }
+}
