@@ -203,7 +203,7 @@ fn a_refusal_is_tried_again_then_blamed() {
     let [failure] = account.failures.as_slice() else { panic!("{:?}", account.failures) };
     assert_eq!((failure.result, failure.reason.as_deref()), (StepResult::Tried(Verdict::Refused), Some("jammed")));
     let blamed = Suspect::Object(Exclusion { object: Symbol::new("saw_1"), call: Some(Symbol::new("cut")) });
-    assert_eq!(failure.suspects, [blamed.clone()]);
+    assert_eq!(failure.suspects, std::slice::from_ref(&blamed));
     let suspects = it.episode.experience().suspects(it.episode.instance());
     let [(suspect, why)] = suspects.as_slice() else { panic!("{suspects:?}") };
     assert_eq!((suspect, why.reason.as_str(), why.count), (&blamed, "cut(saw_1, b) jammed", 1));
