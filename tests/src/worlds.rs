@@ -104,7 +104,8 @@ pub fn run_in(
     let reset = Reset { seed, scenario: Some(task.scenario.clone()) };
     let mut events: Vec<Event> = Vec::new();
     let told = world.told.len();
-    let account = run(&mut episode, world, &reset, &mut parser, confirm, &mut events).expect("the simulator works");
+    let ran = run(&mut episode, world, &reset, &mut parser, confirm, &mut events, None);
+    let account = ran.expect("the simulator works");
     let left = world.observe().map(|scene| parser.parse(&scene).expect("a state")).expect("the simulator works");
     assert_eq!(account.solved(), left.satisfies(&task.goal), "{}: the world agrees with the account", task.name);
     assert_eq!(account.solved(), account.plan.is_some(), "{}: solved by a plan", task.name);

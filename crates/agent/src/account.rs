@@ -49,6 +49,9 @@ pub struct Failure {
     pub action: Symbol,
     /// What the environment was told.
     pub call: GroundCall,
+    /// The number of the [record](typelift_world::Record) of it, of the last if it was tried again, which has the states
+    /// before and after; none if a person rejected it.
+    pub record: Option<u64>,
     /// What came of it.
     pub result: StepResult,
     /// The environment's or the person's reason, if given.

@@ -6,7 +6,7 @@
 
 use typelift_model::{State, Symbol};
 use typelift_plan::Ban;
-use typelift_world::Verdict;
+use typelift_world::{Expected, Record, TraceAction, Verdict};
 
 use crate::account::{Ending, Failure};
 use crate::deed::{Deed, Failed};
@@ -61,8 +61,16 @@ impl Episode {
             _ => seen,
         };
         let (deed, result) = (self.deed(&self.state), StepResult::Tried(verdict));
-        self.report_step(result, reason.clone(), &after, observer);
         let before = std::mem::replace(&mut self.state, after);
+        let executed = match excuse {
+            Some(Verdict::Refused) => Some(false),
+            Some(_) => None,
+            None => Some(true),
+        };
+        if let Some(record) = self.record_of(&before, executed, reason.clone(), verdict) {
+            observer.record(&record);
+        }
+        self.report_step(result, reason.clone(), &before, observer);
         if verdict != Verdict::AsExpected {
             return self.fail(result, reason, &before, observer);
         }
@@ -83,7 +91,23 @@ impl Episode {
         Some(Deed::of(step, schema, state, &self.instance, &self.model.hierarchy))
     }
 
-    fn report_step(&self, result: StepResult, reason: Option<String>, after: &State, observer: &mut dyn Observer) {
+    /// What happened: the next step was done in the state `before`, and the current state came of it.
+    fn record_of(
+        &self,
+        before: &State,
+        executed: Option<bool>,
+        reason: Option<String>,
+        verdict: Verdict,
+    ) -> Option<Record> {
+        let step = self.execution.as_ref()?.step()?;
+        let expected = Some(Expected { action: step.action.clone(), args: step.objects.clone() });
+        let action = TraceAction { executed, reason, expected, verdict: Some(verdict), ..step.call.clone().into() };
+        let (before, after) = (before.clone(), self.state.clone());
+        Some(Record { source: None, step: self.account.actions, before, action, after })
+    }
+
+    /// Tells of the next step, which led from the state `before` to the current one.
+    fn report_step(&self, result: StepResult, reason: Option<String>, before: &State, observer: &mut dyn Observer) {
         let Some(execution) = &self.execution else { return };
         let Some(step) = execution.step() else { return };
         observer.event(&Event::Stepped {
@@ -93,8 +117,8 @@ impl Episode {
             imagined: step.imagined.is_some(),
             result,
             reason,
-            added: self.state.added(after).cloned().collect(),
-            deleted: self.state.deleted(after).cloned().collect(),
+            added: before.added(&self.state).cloned().collect(),
+            deleted: before.deleted(&self.state).cloned().collect(),
         });
     }
 
@@ -184,6 +208,7 @@ impl Episode {
             step: failure.1,
             action: step.action,
             call: step.call,
+            record: matches!(result, StepResult::Tried(_)).then_some(self.account.actions),
             result,
             reason,
             imagined: step.imagined.is_some(),

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use typelift_model::{GroundAtom, GroundCall, Hierarchy, Plan, Symbol, describe_replacements};
+use typelift_world::Record;
 
 use crate::blame::Suspect;
 use crate::monitor::StepResult;
@@ -129,6 +130,10 @@ pub enum Event {
 pub trait Observer {
     /// Something happened.
     fn event(&mut self, event: &Event);
+
+    /// What happened at a step, whatever came of it; the event [`Stepped`](Event::Stepped) tells of it after that. States
+    /// hold what follows from the model's axioms too.
+    fn record(&mut self, _: &Record) {}
 }
 
 /// Watches nothing.

@@ -127,6 +127,7 @@ impl From<RunError> for Failure {
     fn from(error: RunError) -> Self {
         match error {
             RunError::World(error) => error.into(),
+            RunError::Record(error) => error.into(),
             RunError::State(error) => Self::new(Exit::Environment, format!("the environment's state cannot be read: {error}"))
                 .with_hint("A type that the model does not know can be added with --types; an attribute can be ignored when learning, with --ignore."),
             RunError::Episode(EpisodeError::Propose(error)) => error.into(),

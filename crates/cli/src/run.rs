@@ -1,6 +1,6 @@
 //! `typelift run`.
 
-use std::fs::File;
+use std::fs::{File, create_dir_all};
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -11,7 +11,7 @@ use typelift::agent::{Ending, Episode, EpisodeError, Experience, Options, RunErr
 use typelift::bridge::Bridge;
 use typelift::model::{Plan, State, Stop, Symbol, Task};
 use typelift::words::{AccountView, BrokenOffView, summary};
-use typelift::world::{FileError, Parser, Reset, Scene, TaskFile, World, WorldError};
+use typelift::world::{FileError, Parser, Recorder, Reset, Scene, TaskFile, TraceHeader, World, WorldError};
 use typelift_kitchen::Kitchen;
 
 use crate::confirm::{Which, confirm};
@@ -37,6 +37,7 @@ const PLANS_TO_CHOOSE_FROM: usize = 4;
   typelift run kitchen.json K/tasks/T4.1.json --kitchen --imagine
   typelift run kitchen.json K/faults/*.json --kitchen --imagine --json
   typelift run model.json task.json --env 'python3 robot.py' --imagine --confirm
+  typelift run model.json task.json --env 'python3 robot.py' --record runs
 
 Tasks may be problems of a PDDL domain; the environment is then told the file,
 as scenario {\"problem\": FILE}.
@@ -80,6 +81,9 @@ pub(crate) struct Run {
     /// Propose at most this many plans a task
     #[arg(long, value_name = "N", default_value_t = 12, value_parser = parse_whole, allow_negative_numbers = true)]
     max_proposals: u64,
+    /// Record what is done and observed, failures too, as a trace a task in this folder, to `learn` from
+    #[arg(long, value_name = "FOLDER")]
+    record: Option<PathBuf>,
     /// Write everything that happens to this file, one JSON object a line
     #[arg(long, value_name = "FILE")]
     events: Option<PathBuf>,
@@ -130,6 +134,9 @@ impl Run {
             None => None,
             Some(path) => Some(BufWriter::new(File::create(path).map_err(|e| FileError::from_write(path, &e))?)),
         };
+        if let Some(folder) = &self.record {
+            create_dir_all(folder).map_err(|error| FileError::from_write(folder, &error))?;
+        }
         let mut narrator = Narrator::new(!quiet && !self.planning.json, events);
         let mut experience = Experience::new();
         let mut out = anstream::stdout().lock();
@@ -146,7 +153,13 @@ impl Run {
                     .with_values(task.values);
             let mut parser = Parser::new(model.hierarchy.clone(), parse.clone());
             let mut confirm = |plan: &Plan| confirm(self.confirm, plan, &model, &interrupt);
-            let ran = run(&mut episode, &mut *world, &reset, &mut parser, &mut confirm, &mut narrator);
+            let header = TraceHeader { task: name.clone(), goal: task.goal.required };
+            let mut recorder = self.record.as_ref().map(|folder| Recorder::new(folder, &name, header));
+            let recorded = recorder.as_mut();
+            let ran = run(&mut episode, &mut *world, &reset, &mut parser, &mut confirm, &mut narrator, recorded);
+            for file in recorder.iter().flat_map(Recorder::files).filter(|_| !quiet) {
+                anstream::eprintln!("recorded {}", file.display());
+            }
             if interrupt.is_set() && ran.is_err() {
                 return Ok(Exit::Interrupted);
             }

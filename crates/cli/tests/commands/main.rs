@@ -21,6 +21,7 @@ mod pddl_files;
 mod planners;
 mod planning;
 mod recorded;
+mod recording;
 mod shell;
 mod simulator;
 mod strange;

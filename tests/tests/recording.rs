@@ -1,0 +1,141 @@
+//! What an agent did is recorded as it happened: the files say what the episode says, refusals and surprises included.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use typelift::agent::{Account, Confirmation, Episode, Event, Experience, Observer, Options, StepResult, run};
+use typelift::imagine;
+use typelift::model::{ActionModel, Budget, ParseConfig, Plan};
+use typelift::world::{
+    Parser, Record, Recorder, Reset, TraceHeader, Transition, Verdict, World, WorldError, read_trace,
+};
+use typelift_kitchen::{KitchenTask, faults, hierarchy};
+use typelift_lab::kitchen_model;
+use typelift_tests::Watched;
+
+/// What an episode said, in order.
+#[derive(Default)]
+struct Heard {
+    records: Vec<Record>,
+    results: Vec<StepResult>,
+}
+
+impl Observer for Heard {
+    fn record(&mut self, record: &Record) {
+        self.records.push(record.clone());
+    }
+
+    fn event(&mut self, event: &Event) {
+        if let Event::Stepped { result, .. } = event {
+            self.results.push(*result);
+        }
+    }
+}
+
+/// Runs a task and records it in a folder.
+fn recorded(
+    model: &Arc<ActionModel>,
+    world: &mut dyn World,
+    task: &KitchenTask,
+    restart: bool,
+    folder: &Path,
+) -> (Option<Account>, Heard, Recorder) {
+    let options = Options { imagine: Some(imagine::Options::default()), restart, ..Options::default() };
+    let budget = Budget::with_expansions(20_000);
+    let mut episode = Episode::new(Arc::clone(model), task.goal.clone(), options, Experience::new(), budget);
+    let reset = Reset { seed: 0, scenario: Some(task.scenario.clone()) };
+    let header = TraceHeader { task: task.name.clone(), goal: task.goal.clone() };
+    let (mut heard, mut recorder) = (Heard::default(), Recorder::new(folder, &task.name, header));
+    let mut parser = Parser::new(hierarchy(), ParseConfig::default());
+    let mut approve = |_: &Plan| Confirmation::Approve;
+    let ran = run(&mut episode, world, &reset, &mut parser, &mut approve, &mut heard, Some(&mut recorder));
+    (ran.ok(), heard, recorder)
+}
+
+/// Asserts that the files hold what was heard, and nothing else.
+fn assert_same(recorder: &Recorder, heard: &Heard, name: &str) {
+    let mut parser = Parser::new(hierarchy(), ParseConfig::default());
+    let traces: Vec<_> = recorder.files().iter().map(|file| read_trace(file, &mut parser).expect("a trace")).collect();
+    assert!(traces.iter().all(|trace| trace.warnings.is_empty()), "{name}: each is whole");
+    let read: Vec<Transition<'_>> = traces.iter().flat_map(|trace| trace.transitions()).collect();
+    assert_eq!(read.len(), heard.records.len(), "{name}");
+    for (read, record) in read.iter().zip(&heard.records) {
+        let heard = record.transition();
+        assert_eq!((read.before, read.action, read.after), (heard.before, heard.action, heard.after), "{name}");
+        assert!(read.action.expected.is_some() && read.action.verdict.is_some(), "{name}");
+    }
+    let judged = heard.records.iter().filter_map(|record| record.action.verdict).map(StepResult::Tried);
+    assert_eq!(judged.collect::<Vec<_>>(), heard.results, "{name}: every step has its record");
+}
+
+#[test]
+fn the_files_say_what_the_episode_says() {
+    let model = Arc::new(kitchen_model(false));
+    let (mut failures, mut resets) = (0, 0);
+    for task in faults() {
+        for restart in [false, true] {
+            let folder = tempfile::tempdir().expect("a folder");
+            let mut world = Watched::new();
+            let (account, heard, recorder) = recorded(&model, &mut world, &task, restart, folder.path());
+            let account = account.expect("the simulator works");
+            assert_same(&recorder, &heard, &task.name);
+            // A file from reset to reset; after the last one there may be nothing to do.
+            let files = recorder.files().len();
+            assert!(files == world.resets || files + 1 == world.resets, "{}: {files}", task.name);
+            assert_eq!(heard.records.len() as u64, account.actions, "{}", task.name);
+            for failure in &account.failures {
+                let number = failure.record.expect("nobody rejects anything");
+                let record = heard.records.iter().find(|record| record.step == number).expect("its record");
+                assert_eq!(record.action.call, failure.call, "{}", task.name);
+                assert_eq!(record.action.verdict.map(StepResult::Tried), Some(failure.result), "{}", task.name);
+                failures += 1;
+            }
+            resets += world.resets - 1;
+        }
+    }
+    assert!(failures > 10 && resets > 5, "{failures} failures, {resets} resets");
+}
+
+#[test]
+fn what_was_done_before_an_environment_died_is_kept() {
+    let model = Arc::new(kitchen_model(false));
+    let task = faults().into_iter().find(|task| task.name == "broken_cutboard_lettuce").expect("a fault");
+    for lived in 0..4 {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut acted = 0;
+        let mut world = Watched::with(move |kitchen, call| {
+            acted += 1;
+            if acted > lived { Err(WorldError::Gone { account: "it died".to_owned() }) } else { kitchen.act(call) }
+        });
+        let (account, heard, recorder) = recorded(&model, &mut world, &task, false, folder.path());
+        assert!(account.is_none(), "the run ends with an error");
+        assert_same(&recorder, &heard, &task.name);
+        assert_eq!(heard.records.len(), lived);
+    }
+}
+
+#[test]
+fn nothing_is_done_that_cannot_be_recorded() {
+    let model = Arc::new(kitchen_model(false));
+    let task = faults().into_iter().find(|task| task.name == "broken_cutboard_lettuce").expect("a fault");
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut world = Watched::new();
+    let (account, heard, _) = recorded(&model, &mut world, &task, false, &folder.path().join("missing"));
+    assert!(account.is_none() && heard.records.is_empty() && world.told.is_empty());
+}
+
+#[test]
+fn a_world_that_does_something_else_is_recorded_with_what_it_did() {
+    let model = Arc::new(kitchen_model(false));
+    let task = faults().into_iter().find(|task| task.name == "broken_cutboard_lettuce").expect("a fault");
+    let folder = tempfile::tempdir().expect("a folder");
+    // It says that it did what it did not do.
+    let mut world = Watched::with(|kitchen, call| {
+        let acted = kitchen.act(call)?;
+        Ok(typelift::world::Acted { executed: true, reason: None, ..acted })
+    });
+    let (_, heard, recorder) = recorded(&model, &mut world, &task, false, folder.path());
+    assert_same(&recorder, &heard, &task.name);
+    let nothing = heard.records.iter().filter(|record| record.action.verdict == Some(Verdict::Nothing));
+    assert!(nothing.clone().count() > 0 && nothing.clone().all(|record| record.action.executed == Some(true)));
+}
