@@ -54,7 +54,7 @@ impl LabDemonstrations {
             .experiment
             .carry_out(self.rooms.jobs, clock, quiet, files, |conduct| demonstrations_experiment(&options, conduct))?;
         self.experiment.results.print(&result.json(), |out| print(out, &result))?;
-        warn(result.out_of_time(), result.records.values().any(|record| !record.solved.is_empty()));
+        warn(result.out_of_time(), result.records.values().any(|record| !record.solved.is_empty()), quiet);
         Ok(Exit::Success)
     }
 }

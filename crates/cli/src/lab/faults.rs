@@ -51,7 +51,7 @@ impl LabFaults {
         self.experiment.results.print(&result.json(), |out| print(out, &result))?;
         let outcomes = || result.records.values().flat_map(|record| [&record.first, &record.later]);
         let out_of_time = outcomes().filter(|outcome| typelift_lab::is_out_of_time(&outcome.ending)).count();
-        warn(out_of_time, outcomes().any(typelift_lab::Outcome::solved));
+        warn(out_of_time, outcomes().any(typelift_lab::Outcome::solved), quiet);
         Ok(Exit::Success)
     }
 }

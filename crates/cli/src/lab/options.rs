@@ -176,8 +176,11 @@ fn failure(error: LabError, fresh: bool) -> Failure {
     }
 }
 
-/// Warns of results that are the limits' rather than the algorithms'.
-pub(super) fn warn(out_of_time: usize, solved: bool) {
+/// Warns of results that are the limits' rather than the algorithms', unless it is to be `quiet`.
+pub(super) fn warn(out_of_time: usize, solved: bool, quiet: bool) {
+    if quiet {
+        return;
+    }
     if out_of_time > 0 {
         let tasks = if out_of_time == 1 { "1 search".to_owned() } else { format!("{out_of_time} searches") };
         anstream::eprintln!(

@@ -51,7 +51,7 @@ impl LabTable {
             self.experiment.carry_out(self.rooms.jobs, clock, quiet, files, |conduct| table(&options, conduct))?;
         self.experiment.results.print(&result.json(), |out| print(out, &result))?;
         let out_of_time = result.cells.iter().map(|cell| cell.out_of_time).sum();
-        warn(out_of_time, result.cells.iter().any(|cell| cell.solved > 0));
+        warn(out_of_time, result.cells.iter().any(|cell| cell.solved > 0), quiet);
         Ok(Exit::Success)
     }
 }

@@ -218,6 +218,8 @@ fn limits_in_which_nothing_can_be_done() {
             let expected = "warning: nothing was solved within these limits\n";
             assert!(ended.err.ends_with(expected), "{experiment} {limit}: {ended}");
             assert_eq!(ended.err.contains("--time-limit ended"), limit.starts_with("--time"), "{ended}");
+            let quiet = folder.run(&format!("lab {experiment} --quick {limit} -q -o {name}"));
+            assert_eq!((quiet.code, quiet.err.as_str()), (0, ""), "{experiment} {limit}");
         }
     }
 }
