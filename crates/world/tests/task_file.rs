@@ -31,7 +31,7 @@ fn task(goal: &str) -> Result<String, (String, Option<String>)> {
     );
     let mut parser = parser();
     match read(&text).expect("a file").task(&mut parser, &predicates()) {
-        Ok(task) => Ok(format!("{:?} from {:?}", task.goal, task.init.atoms)),
+        Ok(task) => Ok(format!("{:?} from {:?}", task.goal.required, task.init.atoms)),
         Err(error) => {
             let error = error.in_file(Path::new("task.json"), &parser);
             Err((error.to_string(), error.hint))

@@ -68,7 +68,11 @@ fn what_an_agent_meant_and_how_it_judged_is_read() {
 #[test]
 fn line_ends_and_a_missing_last_one_do_not_matter() {
     let trace = read(&[HEADER, STATE]);
-    assert_eq!(read_bytes(format!("\u{FEFF}{HEADER}\r\n{STATE}").as_bytes()), trace);
+    let other = read_bytes(format!("\u{FEFF}{HEADER}\r\n{STATE}").as_bytes()).expect("a trace");
+    let trace = trace.expect("a trace");
+    // To another file of the same content, but for its id.
+    assert_ne!(other.source, trace.source);
+    assert_eq!(Trace { source: trace.source, ..other }, trace);
 }
 
 #[test]
