@@ -79,3 +79,15 @@ impl fmt::Display for Text {
 pub fn count(n: u64, singular: &str) -> String {
     format!("{n} {singular}{}", if n == 1 { "" } else { "s" })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn without_its_roles_a_text_reads_the_same() {
+        let text = Text::new().with(Role::Heading, "T1").plain("  ").with(Role::Good, "solved").with(Role::Bad, "");
+        assert_eq!(text.to_string(), "T1  solved");
+        assert_eq!(text.0.len(), 3, "an empty part is none");
+    }
+}
