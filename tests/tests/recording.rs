@@ -7,7 +7,7 @@ use typelift::agent::{Account, Confirmation, Episode, Event, Experience, Observe
 use typelift::imagine;
 use typelift::model::{ActionModel, Budget, ParseConfig, Plan};
 use typelift::world::{
-    Parser, Record, Recorder, Reset, TraceHeader, Transition, Verdict, World, WorldError, read_trace,
+    Parser, Record, Recorder, Reset, Trace, TraceHeader, Transition, Verdict, World, WorldError, read_trace,
 };
 use typelift_kitchen::{KitchenTask, faults, hierarchy};
 use typelift_lab::kitchen_model;
@@ -57,7 +57,7 @@ fn assert_same(recorder: &Recorder, heard: &Heard, name: &str) {
     let mut parser = Parser::new(hierarchy(), ParseConfig::default());
     let traces: Vec<_> = recorder.files().iter().map(|file| read_trace(file, &mut parser).expect("a trace")).collect();
     assert!(traces.iter().all(|trace| trace.warnings.is_empty()), "{name}: each is whole");
-    let read: Vec<Transition<'_>> = traces.iter().flat_map(|trace| trace.transitions()).collect();
+    let read: Vec<Transition<'_>> = traces.iter().flat_map(Trace::transitions).collect();
     assert_eq!(read.len(), heard.records.len(), "{name}");
     for (read, record) in read.iter().zip(&heard.records) {
         let heard = record.transition();
