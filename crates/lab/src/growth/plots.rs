@@ -255,6 +255,6 @@ mod tests {
         assert_eq!(serde_json::from_str::<GrowthResult>(&text).expect("JSON"), result());
         let figure = std::fs::read_to_string(folder.path().join("growth_objects_time.svg")).expect("read");
         assert!(figure.contains("larger storeroom: ∝ n^2 (R² 1), cut at 1k"), "{figure}");
-        assert!(result().csv().contains("storeroom,1000,out_of_time,60.000000,1048576000,,,,,,,\n"));
+        assert!(result().csv().contains("storeroom,1000,out_of_time,60.000000,1048576000,,,,,,\n"));
     }
 }
