@@ -9,7 +9,7 @@ use typelift::agent::{Options, Proposal, ProposeError, propose};
 use typelift::imagine;
 use typelift::model::{ActionModel, Budget, Plan as FoundPlan, Stop, Task};
 use typelift::plan::{Explanation, Outcome, Restrictions};
-use typelift::words::{AnswerView, count, ending, numbered_steps, plan_size};
+use typelift::words::{AnswerView, count, ending, numbered_steps, plan_size, why_none};
 use typelift::world::write_file;
 
 use crate::exit::Exit;
@@ -122,10 +122,7 @@ impl Plan {
         }
         out.flush()?;
         if plans.is_empty() {
-            // Of a search that was ended early nothing can be said.
-            let searched = matches!(last, Outcome::Unsolvable | Outcome::NoMorePlans);
-            let explanation = searched.then(|| proposal.explain());
-            self.report_none(&last, explanation.as_ref(), &model, &task, &budget);
+            self.report_none(&last, why_none(&proposal, &last).as_ref(), &model, &task, &budget);
         } else if !quiet {
             self.report_end(&last, plans.len());
         }

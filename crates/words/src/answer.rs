@@ -40,8 +40,7 @@ impl AnswerView {
     /// time are for whoever can measure them to say.
     pub fn of(proposal: &Proposal, plans: &[Plan], last: &Outcome, bytes: u64, seconds: f64) -> Self {
         let report = proposal.report();
-        let searched = matches!(last, Outcome::Unsolvable | Outcome::NoMorePlans);
-        let explanation = (plans.is_empty() && searched).then(|| proposal.explain());
+        let explanation = plans.is_empty().then(|| why_none(proposal, last)).flatten();
         Self {
             outcome: if plans.is_empty() { last.word() } else { "solved" },
             plans: plans.iter().map(|plan| PlanView::of(plan, &proposal.model.hierarchy)).collect(),
@@ -60,6 +59,11 @@ impl AnswerView {
     pub fn stopped(stop: Stop, seconds: f64) -> Self {
         Self { outcome: stop.word(), seconds, ..Self::default() }
     }
+}
+
+/// Why a proposal that ended so has no plan; of a search that was ended early nothing can be said.
+pub fn why_none(proposal: &Proposal, last: &Outcome) -> Option<Explanation> {
+    matches!(last, Outcome::Unsolvable | Outcome::NoMorePlans).then(|| proposal.explain())
 }
 
 /// Why a search went no further, in words.

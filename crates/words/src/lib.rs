@@ -23,7 +23,7 @@ mod text;
 
 pub use account::{AccountView, BrokenOffView, ExclusionView, FailureView, summary};
 pub use action::{Description, Row, describe_action, describe_axiom, individual_name};
-pub use answer::{AnswerView, ending};
+pub use answer::{AnswerView, ending, why_none};
 pub use event::line;
 pub use plan::{PlanView, StepView, imagined_note, numbered_steps, plan_size};
 pub use text::{Role, Span, Text, count};
