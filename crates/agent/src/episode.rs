@@ -1,6 +1,9 @@
 //! The episode: one task, from the first observation to an account.
 //!
 //! What is proposed is in `planning.rs`, how a plan is carried out in `acting.rs`.
+//!
+//! A plan that went as expected and did not lead to the goal is not begun again from the same state. If there is no other, the
+//! episode ends and says that something happens besides what the model says.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;

@@ -1,4 +1,8 @@
 //! What is given up, one thing after the other, where there is no plan.
+//!
+//! Without restart, the agent says that nothing is left to try only after all of them, in this order: exclusions
+//! inherited from earlier tasks are lifted, then strictness is, then this task's own exclusions. Ground actions that
+//! failed stay banned throughout, and so does what a person objected to. The account says what became of each.
 
 use serde::{Deserialize, Serialize};
 

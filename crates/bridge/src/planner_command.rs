@@ -1,4 +1,7 @@
 //! A planner in a child process: task and model are written as PDDL, its plan is read.
+//!
+//! It implements [`ExternalPlanner`], which the agent is handed in its options: so the agent needs to know nothing of
+//! processes.
 
 use std::fs::{self, File};
 use std::io;

@@ -3,6 +3,8 @@
 //! A PDDL action with a disjunctive or existential precondition is several schemas of a model, whose parameters may
 //! be more than the action's. A line of a plan can be executed if one of them can, with whatever objects for the other
 //! parameters; all have the same effect.
+//!
+//! A learned action is named by its own name and all of its parameters instead, since one call may have several effects.
 
 use typelift_model::{
     ActionModel, ActionSchema, GroundAction, GroundAtom, GroundCall, InstantiateError, Literal, Plan, State, Symbol,

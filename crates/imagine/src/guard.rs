@@ -2,6 +2,9 @@
 //!
 //! The paper states no bound. Without one, an action can be imagined in which a plate is a tool: nothing stops a
 //! parameter from rising to a type that covers everything.
+//!
+//! Only the arguments of the call are compared by default. Comparing all parameters is too strict: what lies under the thing
+//! that is put down may well be of the same kind.
 
 use typelift_model::{Term, TypeId};
 

@@ -14,6 +14,9 @@
 //! with fewer objects is found with all, since a ground action is the same whatever objects there are besides; so this is
 //! done only where that is so: not where something holds, or happens, for all objects. That nothing is found with fewer
 //! objects says nothing.
+//!
+//! Up to 50 objects, or 1,000 for lazy searches, all are taken at once; so they are where a cheapest plan is wanted. That there
+//! is no plan, no further one, none that is cheaper, and what is wrong with the goal, is only ever said of all objects.
 
 use std::borrow::Cow;
 use std::collections::{BTreeSet, VecDeque};

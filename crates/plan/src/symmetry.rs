@@ -5,6 +5,8 @@
 //! it was initially are interchangeable too, so that an action need be tried only with the first of them, in the order in
 //! which it mentions them. This is the part of symmetry breaking (Pochter, Zohar and Rosenschein 2011; Domshlak, Katz and
 //! Shleyfman 2012) that needs no search for automorphisms; plans are plans of the task as it is, and a cheapest one is kept.
+//!
+//! Lazy searches use it; A* keeps every plan apart, so that several can be asked for.
 
 use std::collections::BTreeSet;
 

@@ -5,6 +5,10 @@
 //! (Concise finite-domain representations for PDDL planning tasks, section 4), except that equalities are solved, and
 //! that a disjunction whose multiplication would give too many cases becomes a derived predicate as well. Goals are
 //! compiled for the objects of their problem.
+//!
+//! What a schema has beyond learned ones is in three fields: an effect's own parameters, a cost's functions, the model's
+//! axioms. Equality is a literal of a reserved predicate; that two parameters differ is in `distinct`, where grounding
+//! uses it.
 
 mod block;
 mod case;

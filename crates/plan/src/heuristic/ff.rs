@@ -4,6 +4,9 @@
 //! Not admissible. A state that it calls a dead end is one. Conditional effects are relaxed actions of their own, of which
 //! an action in the relaxed plan is paid once; derived facts follow without cost, their negations by what blocks their
 //! axioms. Preferred are the actions of the relaxed plan whose preconditions hold.
+//!
+//! Helpful are, as in FF, all actions that achieve something which the relaxed plan achieves first, whether they stand in it or
+//! not. Where many actions are equally good (parking), nothing but their numbers chooses those that stand in it.
 
 use std::sync::Arc;
 

@@ -8,6 +8,9 @@
 //! and not the other way round. Cycles and ties by the number of landmarks, then by name. Finally a landmark that is
 //! needed again is inserted again: before each L, what all achievers of L need and every achiever of some landmark since
 //! has destroyed.
+//!
+//! Why a reasonable order looks only at what does not hold initially: if initial facts counted too, loading a machine
+//! would come before preparing what is loaded, and plans would get longer.
 
 use std::collections::{BTreeMap, BTreeSet};
 

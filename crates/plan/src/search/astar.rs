@@ -4,6 +4,8 @@
 //! A node is a state together with the heuristic's memory. A node reached again on a smaller g is reopened.
 //! The search can be continued for further plans: of each node up to `paths` ways that differ in their multiset of
 //! actions are kept (with one, this is the plain search), and a plan is new if its multiset of actions is.
+//!
+//! Closing each state after the first path to it would lose every further plan that passes through it.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;

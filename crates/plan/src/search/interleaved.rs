@@ -4,6 +4,8 @@
 //! the expansions. So the lasting searches take turns with one that begins anew again and again, each time with ties broken
 //! in another way, and each time for longer. A turn goes on while it brings progress, and turns grow with what was done so
 //! far, so that few of them are enough.
+//!
+//! Turns are counted in expansions, not in time, so that the same plan is found on any machine.
 
 use typelift_model::{Budget, Stop};
 
