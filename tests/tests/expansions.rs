@@ -20,7 +20,7 @@ fn for_the_first(strategy: Strategy) -> Budget {
     Budget::with_expansions(match strategy {
         Strategy::OrderedLandmarks | Strategy::AStarLmCut | Strategy::AStarBlind => 400,
         Strategy::LazyFf | Strategy::LazyLandmarks => 1_000,
-        Strategy::Lama => 5_000,
+        Strategy::LamaPortfolio => 5_000,
     })
 }
 

@@ -50,7 +50,7 @@ impl PlannerOption {
 
     /// How typelift's own planner searches, with a model that was given as PDDL or one that was learned.
     pub(crate) fn strategy(&self, is_given: bool) -> Strategy {
-        self.search.unwrap_or(if is_given { Strategy::Lama } else { Strategy::OrderedLandmarks })
+        self.search.unwrap_or(if is_given { Strategy::LamaPortfolio } else { Strategy::OrderedLandmarks })
     }
 
     /// The planner, if there is one.

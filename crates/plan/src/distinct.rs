@@ -4,7 +4,7 @@ use std::hash::{BuildHasher, Hash, Hasher};
 
 use typelift_model::{ActionSchema, HashMap, Symbol};
 
-use crate::ground::Op;
+use crate::op::Op;
 
 /// Distinct ground actions.
 pub(crate) struct Distinct<'a> {

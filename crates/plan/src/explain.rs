@@ -95,7 +95,7 @@ pub enum Explanation {
     /// Somebody else's planner says so, and no more.
     Told,
     /// These atoms must not hold in the end, but do from the start, and no action deletes them.
-    Lasting(Vec<GroundAtom>),
+    NeverDeleted(Vec<GroundAtom>),
     /// Each goal atom can be reached, but not all together; where the search came closest, these were missing.
     NotTogether {
         /// The missing goal atoms, and whether each must hold.
@@ -130,7 +130,7 @@ impl fmt::Display for Explanation {
                 write!(f, "{one} and {other} cannot hold together: whatever achieves the one deletes the other")
             }
             Self::Told => f.write_str("the planner says that there is none"),
-            Self::Lasting(atoms) => {
+            Self::NeverDeleted(atoms) => {
                 let lines: Vec<String> = atoms
                     .iter()
                     .map(|atom| format!("{atom} must not hold in the end, but no action deletes it"))

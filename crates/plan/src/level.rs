@@ -1,48 +1,40 @@
-//! One level of a planner: a task with some or all of its objects, grounded once and searched on demand.
+//! One level of planning: a task with some or all of its objects, grounded once and searched on demand.
 
-use typelift_model::{ActionModel, Budget, GroundAtom, HashSet, Plan, Stop, Task};
+use std::sync::Arc;
+
+use typelift_model::{ActionModel, Budget, GroundAtom, HashSet, Stop, Task};
 
 use crate::Restrictions;
+use crate::explain::{Explanation, unreachable};
 use crate::fact::FactId;
-use crate::fdr::{ActionIndex, Fdr};
+use crate::fdr::Fdr;
 use crate::ground::GroundTask;
 use crate::landmark::exclusive_goals;
-use crate::outcome::Outcome;
-use crate::planner::Options;
+use crate::options::Options;
 use crate::poll::Poll;
 use crate::reach::Reachable;
-use crate::search::{Found, Report, Search, Space};
-use crate::strategy::{Stage, Strategy};
+use crate::report::Report;
+use crate::search::{Found, Search, Space};
+use crate::stages::Stages;
 use crate::symmetry::Symmetry;
 
 /// A grounded task and its search.
 #[derive(Debug)]
 pub(crate) struct Level {
-    plans: usize,
-    ground: GroundTask,
+    ground: Arc<GroundTask>,
     /// Two goals that cannot hold together.
     exclusive: Option<(GroundAtom, GroundAtom)>,
-    /// What must not hold in the end, but does for ever.
-    lasting: Vec<GroundAtom>,
-    /// `None` if a goal is unreachable, two exclude each other, or something lasts: there is nothing to search.
-    running: Option<Running>,
-}
-
-/// A search, and what came before it.
-#[derive(Debug)]
-struct Running {
-    space: Space,
-    strategy: Strategy,
-    stage: Stage,
-    search: Box<dyn Search>,
-    /// The plans found, as multisets of actions, sorted.
-    found: HashSet<Vec<ActionIndex>>,
-    /// What searches that are over have counted.
-    past: Report,
+    /// What must not hold in the end, but is never deleted.
+    never_deleted: Vec<GroundAtom>,
+    /// `None` if there is nothing to search: a goal is unreachable, two exclude each other, or something is never deleted.
+    stages: Option<Stages>,
 }
 
 impl Level {
     /// Grounds the task from what can be reached of it, and finds its landmarks.
+    ///
+    /// # Errors
+    /// [`Stop`] if the budget ends it.
     pub(crate) fn new(
         model: &ActionModel,
         task: &Task,
@@ -51,12 +43,11 @@ impl Level {
         reachable: Reachable,
         budget: &Budget,
     ) -> Result<Self, Stop> {
-        let ground = GroundTask::of(reachable, model, task, options.tie_order, budget)?;
-        let exclusive = exclusive_goals(&ground, budget)?;
-        let lasting = lasting(&ground, budget)?;
-        let exclusive = exclusive.map(|(a, b)| (ground.atom(a), ground.atom(b)));
-        let mut this = Self { plans: options.plans, exclusive, lasting, ground, running: None };
-        if !this.ground.unreachable_goals().is_empty() || this.exclusive.is_some() || !this.lasting.is_empty() {
+        let ground = Arc::new(GroundTask::of(reachable, model, task, options.tie_order, budget)?);
+        let exclusive = exclusive_goals(&ground, budget)?.map(|(a, b)| (ground.atom(a), ground.atom(b)));
+        let never_deleted = never_deleted(&ground, budget)?;
+        let mut this = Self { ground, exclusive, never_deleted, stages: None };
+        if !this.ground.unreachable_goals().is_empty() || this.exclusive.is_some() || !this.never_deleted.is_empty() {
             return Ok(this);
         }
         let fdr = Fdr::new(&this.ground, budget)?;
@@ -70,66 +61,19 @@ impl Level {
         } else {
             Symmetry::default()
         };
-        let space = Space::new(fdr, symmetry);
-        let (strategy, stage) = (options.strategy, Stage::First);
-        let search = strategy.search(stage, &this.ground, &space, options.plans, budget)?;
-        let past = Report::default();
-        this.running = Some(Running { space, strategy, stage, search, found: HashSet::default(), past });
+        let space = Arc::new(Space::new(Arc::clone(&this.ground), fdr, symmetry));
+        this.stages = Some(Stages::new(space, options.strategy, options.plans, budget)?);
         Ok(this)
     }
 
     /// Whether there is something to search.
     pub(crate) fn is_open(&self) -> bool {
-        self.running.is_some()
+        self.stages.is_some()
     }
 
     /// Forgets the search, of which only the counts are left, and nothing can be asked any more.
     pub(crate) fn close(&mut self) {
-        self.running = None;
-    }
-
-    /// The next plan, or, with a bound, one that is cheaper.
-    pub(crate) fn next(&mut self, cost_bound: Option<u64>, budget: &Budget) -> Outcome {
-        match cost_bound {
-            None => self.next_plan(budget),
-            Some(cost) => self.better_plan(cost, budget),
-        }
-    }
-
-    fn next_plan(&mut self, budget: &Budget) -> Outcome {
-        let Some(running) = &mut self.running else { return Outcome::Unsolvable };
-        if !running.strategy.has_one_search() && !running.found.is_empty() {
-            // A greedy search closes each state after its first way there; others are found by another search.
-            let turned = running.turn_to(Strategy::OrderedLandmarks, Stage::First, &self.ground, self.plans, budget);
-            if let Err(stop) = turned {
-                return stop.into();
-            }
-        }
-        running.next(&self.ground, None, budget)
-    }
-
-    fn better_plan(&mut self, cost: u64, budget: &Budget) -> Outcome {
-        let Some(running) = &mut self.running else { return Outcome::Unsolvable };
-        if !running.strategy.has_one_search() && !running.found.is_empty() && running.stage == Stage::First {
-            let (strategy, stage) = (running.strategy, running.stage.next());
-            if let Err(stop) = running.turn_to(strategy, stage, &self.ground, self.plans, budget) {
-                return stop.into();
-            }
-        }
-        let outcome = running.next(&self.ground, Some(cost), budget);
-        if matches!(outcome, Outcome::Solved(_)) && !running.strategy.has_one_search() {
-            let (strategy, stage) = (running.strategy, running.stage.next());
-            // Without the time for the next stage this one goes on.
-            let _ = running.turn_to(strategy, stage, &self.ground, self.plans, budget);
-        }
-        outcome
-    }
-
-    /// What was counted so far.
-    pub(crate) fn report(&self) -> Report {
-        let counted = self.running.as_ref().map(Running::report).unwrap_or_default();
-        let (ground_actions, facts) = (self.ground.op_count() as u64, self.ground.fact_count() as u64);
-        Report { ground_actions, facts, ..counted }
+        self.stages = None;
     }
 
     /// The grounded task.
@@ -137,93 +81,54 @@ impl Level {
         &self.ground
     }
 
-    /// Two goals that cannot hold together.
-    pub(crate) fn exclusive(&self) -> Option<&(GroundAtom, GroundAtom)> {
-        self.exclusive.as_ref()
-    }
-
-    /// What must not hold in the end, but does for ever.
-    pub(crate) fn lasting(&self) -> &[GroundAtom] {
-        &self.lasting
-    }
-
-    /// What was missing where the search came closest to the goal, and whether each must hold.
-    pub(crate) fn missing(&self) -> Vec<(GroundAtom, bool)> {
-        let Some(running) = &self.running else { return Vec::new() };
-        let missing = |values: Vec<u32>| {
-            let wanted = self.ground.goal().iter().map(|&fact| (fact, true));
-            let unwanted = self.ground.negative_goal().iter().map(|&fact| (fact, false));
-            let open = wanted.chain(unwanted).filter(|&(f, positive)| running.space.task.holds(&values, f) != positive);
-            open.map(|(fact, positive)| (self.ground.atom(fact), positive)).collect()
-        };
-        running.search.closest().map(missing).unwrap_or_default()
+    /// Why there is no plan of the task, with these restrictions, from which this level was made.
+    pub(crate) fn explain(&self, model: &ActionModel, task: &Task, restrictions: &Restrictions) -> Explanation {
+        if self.is_open() {
+            return Explanation::NotTogether { missing: self.missing() };
+        }
+        if !self.ground.unreachable_goals().is_empty() {
+            let reachable = self.ground.reachable();
+            return Explanation::Unreachable(unreachable(model, task, restrictions, reachable));
+        }
+        match &self.exclusive {
+            Some((one, other)) => Explanation::Exclusive { one: one.clone(), other: other.clone() },
+            None => Explanation::NeverDeleted(self.never_deleted.clone()),
+        }
     }
 }
 
-impl Running {
-    fn turn_to(
-        &mut self,
-        strategy: Strategy,
-        stage: Stage,
-        ground: &GroundTask,
-        plans: usize,
-        budget: &Budget,
-    ) -> Result<(), Stop> {
-        if (strategy, stage) == (self.strategy, self.stage) {
-            return Ok(());
-        }
-        let search = strategy.search(stage, ground, &self.space, plans, budget)?;
-        self.past = self.report();
-        (self.strategy, self.stage, self.search) = (strategy, stage, search);
-        Ok(())
-    }
-
-    fn next(&mut self, ground: &GroundTask, cost_bound: Option<u64>, budget: &Budget) -> Outcome {
-        loop {
-            match self.search.next(&self.space, cost_bound, budget) {
-                Found::Plan(actions) => {
-                    let mut multiset = actions.clone();
-                    multiset.sort_unstable();
-                    if self.found.insert(multiset) {
-                        let ids = &self.space.task.actions.ids;
-                        let steps = actions.iter().map(|&action| ground.step(ids[action as usize])).collect();
-                        return Outcome::Solved(Plan { steps });
-                    }
-                }
-                Found::Nothing if self.found.is_empty() && cost_bound.is_none() => return Outcome::Unsolvable,
-                Found::Nothing => return Outcome::NoMorePlans,
-                Found::Stopped(stop) => return stop.into(),
-            }
-        }
+impl Search for Level {
+    fn next(&mut self, cost_bound: Option<u64>, budget: &Budget) -> Found {
+        self.stages.as_mut().map_or(Found::Nothing, |stages| stages.next(cost_bound, budget))
     }
 
     fn report(&self) -> Report {
-        let now = self.search.report();
-        Report {
-            expansions: self.past.expansions + now.expansions,
-            evaluations: self.past.evaluations + now.evaluations,
-            reopened: self.past.reopened + now.reopened,
-            ..now
-        }
+        let counted = self.stages.as_ref().map(Stages::report).unwrap_or_default();
+        let (ground_actions, facts) = (self.ground.op_count() as u64, self.ground.fact_count() as u64);
+        counted + Report { ground_actions, facts, ..Report::default() }
+    }
+
+    fn missing(&self) -> Vec<(GroundAtom, bool)> {
+        self.stages.as_ref().map(Stages::missing).unwrap_or_default()
     }
 }
 
 /// What must not hold in the end, but holds initially and is neither deleted by any action nor derived.
-fn lasting(task: &GroundTask, budget: &Budget) -> Result<Vec<GroundAtom>, Stop> {
+fn never_deleted(task: &GroundTask, budget: &Budget) -> Result<Vec<GroundAtom>, Stop> {
     if task.negative_goal().is_empty() {
         return Ok(Vec::new());
     }
     let initially: HashSet<FactId> = task.init().iter().copied().collect();
-    let mut lasting: HashSet<FactId> = task.negative_goal().iter().copied().collect();
-    lasting.retain(|fact| initially.contains(fact) && !task.derives(*fact));
+    let mut left: HashSet<FactId> = task.negative_goal().iter().copied().collect();
+    left.retain(|fact| initially.contains(fact) && !task.derives(*fact));
     let mut poll = Poll::new(budget);
     for (_, op) in task.ops() {
         poll.check(1 + op.deletes.len() + op.conditional.len())?;
         let conditional = op.conditional.iter().filter(|effect| !effect.adds).map(|effect| &effect.fact);
         for fact in op.deletes.iter().chain(conditional) {
-            lasting.remove(fact);
+            left.remove(fact);
         }
     }
-    let kept = task.negative_goal().iter().filter(|fact| lasting.contains(fact));
+    let kept = task.negative_goal().iter().filter(|fact| left.contains(fact));
     Ok(kept.map(|&fact| task.atom(fact)).collect())
 }

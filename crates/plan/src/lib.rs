@@ -6,13 +6,18 @@
 //! ```text
 //! ActionModel, Task, Restrictions ─▶ [scope] ─▶ [reach] ─▶ [ground] GroundTask ─▶ [fdr] variables ─┬▶ [relaxation] ─▶ [landmark]
 //!                                                                                       ▼        └─▶ [heuristic] ◀┘
-//!                                                         Plan ◀─ [strategy] ◀─ [search] ◀───────────────┘
+//! Plan ◀─ [planner] ◀─ [widening] ◀─ [level] ◀─ [stages] ◀─ [lama], [search] ◀─────────────────────────────┘
 //! ```
+//!
+//! The last row's modules but the planner are searches around searches, each of which can be asked for one plan after
+//! another. The planner alone tells plans apart.
 //!
 //! This crate has never heard of learning or imagination: it plans with whatever actions it is given.
 #![deny(missing_docs)]
 
 mod alike;
+mod assignment;
+mod axioms;
 mod distinct;
 mod emit;
 mod explain;
@@ -21,33 +26,41 @@ mod fact;
 mod fdr;
 mod ground;
 mod heuristic;
+mod lama;
 mod landmark;
 mod level;
 mod lists;
+mod op;
+mod options;
 mod outcome;
 mod pattern;
 mod planner;
 mod poll;
 mod reach;
 mod relaxation;
+mod report;
 mod restrict;
 mod restricted;
 mod scope;
 mod search;
 mod shuffle;
+mod stages;
 mod strategy;
 mod symmetry;
+mod widening;
 #[cfg(test)]
 mod worked;
 
 pub use explain::{Explanation, Misfit, Nearest, UnreachableGoal};
 pub use external::{ExternalFailure, ExternalPlanner, PlanDefect, StepDefect};
 pub use fact::FactId;
-pub use ground::{ConditionalEffect, GroundTask, Op, OpId, TieOrder, ground};
+pub use ground::{GroundTask, TieOrder, ground};
 pub use landmark::{LandmarkSequence, landmark_sequences};
+pub use op::{ConditionalEffect, Op, OpId};
+pub use options::Options;
 pub use outcome::Outcome;
-pub use planner::{Options, Planner};
+pub use planner::Planner;
 pub use reach::Reachable;
+pub use report::Report;
 pub use restrict::{Ban, Exclusion, Restrictions, TypeExclusion};
-pub use search::Report;
 pub use strategy::{Strategy, UnknownStrategy};

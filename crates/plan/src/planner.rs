@@ -3,31 +3,14 @@
 use typelift_model::{ActionModel, Budget, HashSet, Plan, Stop, Symbol, Task};
 
 use crate::Restrictions;
-use crate::explain::{Explanation, unreachable};
-use crate::ground::{GroundTask, TieOrder};
-use crate::level::Level;
+use crate::explain::Explanation;
+use crate::ground::GroundTask;
+use crate::options::Options;
 use crate::outcome::Outcome;
 use crate::reach::Reachable;
-use crate::scope::{EAGERLY, LAZILY, Scopes};
-use crate::search::Report;
-use crate::strategy::Strategy;
-
-/// How plans are looked for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Options {
-    /// How states are searched.
-    pub strategy: Strategy,
-    /// In which order successors are tried.
-    pub tie_order: TieOrder,
-    /// How many plans will be asked for: so many different ways to each node are kept. 1 is the plain search.
-    pub plans: usize,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self { strategy: Strategy::default(), tie_order: TieOrder::SpecificFirst, plans: 1 }
-    }
-}
+use crate::report::Report;
+use crate::search::{Found, Search};
+use crate::widening::Widening;
 
 /// A task being planned: grounded once, searched on demand.
 ///
@@ -37,23 +20,9 @@ impl Default for Options {
 /// or no better one is only ever said of all objects. A strategy whose first plan is a cheapest one takes all at once.
 #[derive(Debug)]
 pub struct Planner {
-    model: ActionModel,
-    task: Task,
-    restrictions: Restrictions,
-    options: Options,
-    /// The objects planned with.
-    scopes: Scopes,
-    level: Level,
-    /// The level is over, and the next not grounded yet.
-    over: bool,
-    /// The expansions of this level when it had found its last plan.
-    expansions_before: u64,
-    /// What levels that are over have counted.
-    past: Report,
-    /// How often what can be reached was worked out.
-    groundings: u64,
-    /// The plans of levels with fewer objects, as multisets of actions, sorted.
-    found: HashSet<Vec<(Symbol, Vec<Symbol>)>>,
+    search: Widening,
+    /// The plans given so far, as multisets of actions, sorted.
+    given: HashSet<Vec<(Symbol, Vec<Symbol>)>>,
 }
 
 impl Planner {
@@ -86,43 +55,8 @@ impl Planner {
         options: &Options,
         budget: &Budget,
     ) -> Result<Self, Stop> {
-        let mut known = reachable;
-        let mut groundings = known.as_ref().map_or(0, Reachable::computed);
-        let mut scopes = match options.strategy {
-            strategy if strategy.is_optimal() => Scopes::whole(),
-            Strategy::OrderedLandmarks => Scopes::of(model, task, restrictions, EAGERLY),
-            _ => Scopes::of(model, task, restrictions, LAZILY),
-        };
-        let mut past = Report::default();
-        let level = loop {
-            let task = scopes.restrict(task);
-            let reachable = match known.take_if(|known| known.has_objects_of(&task)) {
-                Some(known) => known,
-                None => {
-                    groundings += 1;
-                    Reachable::of(model, &task, restrictions, budget)?
-                }
-            };
-            let level = Level::new(model, &task, restrictions, options, reachable, budget)?;
-            if scopes.is_whole() || level.is_open() {
-                break level;
-            }
-            past = past.and(level.report());
-            scopes.advance();
-        };
-        Ok(Self {
-            model: model.clone(),
-            task: task.clone(),
-            restrictions: restrictions.clone(),
-            options: *options,
-            scopes,
-            level,
-            over: false,
-            expansions_before: 0,
-            past,
-            groundings,
-            found: HashSet::default(),
-        })
+        let search = Widening::new(reachable, model, task, restrictions, options, budget)?;
+        Ok(Self { search, given: HashSet::default() })
     }
 
     /// The next plan: one whose multiset of actions was not found before. The budget's expansions are for this call.
@@ -138,112 +72,45 @@ impl Planner {
     fn next(&mut self, cost_bound: Option<u64>, budget: &Budget) -> Outcome {
         let mut budget = budget.clone();
         loop {
-            if self.over
-                && let Err(stop) = self.grow(&budget)
-            {
-                return stop.into();
-            }
-            let before = self.level.report().expansions;
-            // With fewer objects not everything is searched, however long it takes.
-            let allowed = self.scopes.expansions().map(|all| (all + self.expansions_before).saturating_sub(before));
-            let expansions = budget.expansions.into_iter().chain(allowed).min();
-            let outcome = self.level.next(cost_bound, &Budget { expansions, ..budget.clone() });
-            let spent = self.level.report().expansions - before;
-            budget.expansions = budget.expansions.map(|left| left.saturating_sub(spent));
-            match outcome {
-                Outcome::Solved(plan) => {
-                    self.expansions_before = before + spent;
-                    if self.is_new(&plan) {
-                        return Outcome::Solved(plan);
-                    }
+            let before = self.search.report().expansions;
+            match self.search.next(cost_bound, &budget) {
+                Found::Plan(plan) if self.given.insert(multiset(&plan)) => return Outcome::Solved(plan),
+                Found::Plan(_) => {}
+                Found::Nothing if self.given.is_empty() && (cost_bound.is_none() || !self.search.level().is_open()) => {
+                    return Outcome::Unsolvable;
                 }
-                Outcome::Unsolvable if self.scopes.is_whole() && !self.found.is_empty() => return Outcome::NoMorePlans,
-                outcome if self.scopes.is_whole() => return outcome,
-                Outcome::Unsolvable | Outcome::NoMorePlans => self.over = true,
-                Outcome::Stopped(Stop::Expansions) if budget.expansions != Some(0) => self.over = true,
-                outcome => return outcome,
+                Found::Nothing => return Outcome::NoMorePlans,
+                Found::Stopped(stop) => return stop.into(),
             }
+            let spent = self.search.report().expansions - before;
+            budget.expansions = budget.expansions.map(|left| left.saturating_sub(spent));
         }
-    }
-
-    /// Grounds the task with more objects, until no goal is out of reach. If that is cut, it is done the next time.
-    fn grow(&mut self, budget: &Budget) -> Result<(), Stop> {
-        if self.level.is_open() {
-            self.past = self.past.and(self.level.report());
-            self.level.close();
-            self.scopes.advance();
-        }
-        loop {
-            let task = self.scopes.restrict(&self.task);
-            let reachable = Reachable::of(&self.model, &task, &self.restrictions, budget)?;
-            self.groundings += 1;
-            let level = Level::new(&self.model, &task, &self.restrictions, &self.options, reachable, budget)?;
-            if self.scopes.is_whole() || level.is_open() {
-                (self.level, self.over, self.expansions_before) = (level, false, 0);
-                return Ok(());
-            }
-            self.past = self.past.and(level.report());
-            self.scopes.advance();
-        }
-    }
-
-    /// Whether no level with fewer objects has found a plan; at such a level it has now.
-    fn is_new(&mut self, plan: &Plan) -> bool {
-        if self.scopes.is_whole() && self.found.is_empty() {
-            return true;
-        }
-        let mut actions: Vec<_> = plan.steps.iter().map(|step| (step.action.clone(), step.objects.clone())).collect();
-        actions.sort_unstable();
-        if self.scopes.is_whole() { !self.found.contains(&actions) } else { self.found.insert(actions) }
     }
 
     /// What was counted so far, with fewer objects and with more.
     pub fn report(&self) -> Report {
-        let counted = if self.over && !self.level.is_open() { self.past } else { self.past.and(self.level.report()) };
-        Report { groundings: self.groundings, ..counted }
+        self.search.report()
     }
 
     /// The grounded task: with as many objects as are planned with now.
     pub fn ground_task(&self) -> &GroundTask {
-        self.level.ground()
+        self.search.level().ground()
     }
 
     /// The task as it was asked.
     pub fn task(&self) -> &Task {
-        &self.task
+        self.search.task()
     }
 
     /// Why no plan was found.
     pub fn explain(&self) -> Explanation {
-        let ground = self.level.ground();
-        if self.over || self.level.is_open() {
-            return Explanation::NotTogether { missing: self.level.missing() };
-        }
-        if !ground.unreachable_goals().is_empty() {
-            return Explanation::Unreachable(unreachable(
-                &self.model,
-                &self.task,
-                &self.restrictions,
-                ground.reachable(),
-            ));
-        }
-        match self.level.exclusive() {
-            Some((one, other)) => Explanation::Exclusive { one: one.clone(), other: other.clone() },
-            None => Explanation::Lasting(self.level.lasting().to_vec()),
-        }
+        self.search.explain()
     }
 }
 
-impl Report {
-    /// This, and what was counted after it.
-    fn and(self, later: Self) -> Self {
-        Self {
-            groundings: self.groundings + later.groundings,
-            ground_actions: self.ground_actions + later.ground_actions,
-            facts: self.facts + later.facts,
-            expansions: self.expansions + later.expansions,
-            evaluations: self.evaluations + later.evaluations,
-            reopened: self.reopened + later.reopened,
-        }
-    }
+/// The actions of a plan, sorted.
+fn multiset(plan: &Plan) -> Vec<(Symbol, Vec<Symbol>)> {
+    let mut actions: Vec<_> = plan.steps.iter().map(|step| (step.action.clone(), step.objects.clone())).collect();
+    actions.sort_unstable();
+    actions
 }

@@ -10,7 +10,8 @@ use std::collections::BTreeMap;
 
 use typelift_model::Stop;
 
-use crate::fdr::{ActionIndex, Assignment, Fdr, GroundAxiom, Values};
+use crate::axioms::GroundAxiom;
+use crate::fdr::{ActionIndex, Assignment, Fdr, Values};
 use crate::lists::Lists;
 use crate::poll::Poll;
 

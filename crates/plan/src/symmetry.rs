@@ -15,8 +15,9 @@ use typelift_model::{ActionModel, HashMap, Symbol, Task};
 use crate::alike::{alike, constants};
 use crate::fact::FactId;
 use crate::fdr::{ActionIndex, Fdr, Values};
-use crate::ground::{GroundTask, Op};
+use crate::ground::GroundTask;
 use crate::lists::Lists;
+use crate::op::Op;
 
 /// An interchangeable object: they are numbered class by class.
 type Member = u32;

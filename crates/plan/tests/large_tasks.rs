@@ -41,7 +41,7 @@ proptest! {
     fn what_does_not_matter_changes_nothing(tiny in tiny(4), lama in any::<bool>()) {
         let large = padded(&tiny);
         let small = Tiny { model: large.model.clone(), task: tiny.task };
-        let strategy = if lama { Strategy::Lama } else { Strategy::default() };
+        let strategy = if lama { Strategy::LamaPortfolio } else { Strategy::default() };
         let options = Options { strategy, ..Options::default() };
         let (restrictions, no_limit) = (Restrictions::default(), Budget::unlimited());
         let mut planner =
@@ -110,7 +110,7 @@ fn planner(of: &(ActionModel, Task), strategy: Strategy) -> Planner {
     Planner::new(&of.0, &of.1, &Restrictions::default(), &options, &Budget::unlimited()).expect("no limits")
 }
 
-const STRATEGIES: [Strategy; 3] = [Strategy::OrderedLandmarks, Strategy::Lama, Strategy::LazyFf];
+const STRATEGIES: [Strategy; 3] = [Strategy::OrderedLandmarks, Strategy::LamaPortfolio, Strategy::LazyFf];
 
 #[test]
 fn objects_are_added_until_there_are_enough() {

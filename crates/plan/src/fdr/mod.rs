@@ -5,49 +5,23 @@
 //! What can never change is left out, and so are ground actions that need two values of one variable at once. Derived
 //! facts are variables of their own, which [`Axioms`] decides from the others.
 
-mod axioms;
 mod mutex;
 mod state;
 mod successor;
 
 use typelift_model::{Budget, Stop};
 
-pub(crate) use axioms::{Axioms, FOLLOWS, GroundAxiom};
 pub(crate) use mutex::MutexGroups;
 pub(crate) use state::{Registry, StateId};
 pub(crate) use successor::SuccessorGenerator;
 
+pub(crate) use crate::assignment::{Assignment, Place, Values};
+use crate::axioms::Axioms;
 use crate::fact::FactId;
-use crate::ground::{ConditionalEffect, GroundTask, Op, OpId};
+use crate::ground::GroundTask;
 use crate::lists::Lists;
+use crate::op::{ConditionalEffect, Op, OpId};
 use crate::poll::Poll;
-
-/// The value of each variable.
-pub(crate) type Values = [u32];
-
-/// A variable's value: the fact that it stands for holds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub(crate) struct Assignment {
-    pub(crate) variable: u32,
-    pub(crate) value: u32,
-}
-
-impl Assignment {
-    pub(crate) fn holds(self, values: &Values) -> bool {
-        values[self.variable as usize] == self.value
-    }
-}
-
-/// What a fact is in a search.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Place {
-    /// It holds in every state.
-    Always,
-    /// It holds in none.
-    Never,
-    /// It is this variable's value.
-    At(Assignment),
-}
 
 /// An effect with a condition.
 #[derive(Debug, Clone)]

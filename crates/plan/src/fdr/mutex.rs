@@ -16,8 +16,9 @@ use std::collections::{BTreeSet, BinaryHeap};
 use typelift_model::{HashMap, Stop};
 
 use crate::fact::{FactId, ObjectId};
-use crate::ground::{GroundTask, Op, OpId};
+use crate::ground::GroundTask;
 use crate::lists::Lists;
+use crate::op::{Op, OpId};
 use crate::poll::Poll;
 
 /// How many candidates are looked at.

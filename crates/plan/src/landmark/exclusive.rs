@@ -3,7 +3,8 @@
 use typelift_model::{Budget, HashSet, Stop};
 
 use crate::fact::FactId;
-use crate::ground::{GroundTask, Op};
+use crate::ground::GroundTask;
+use crate::op::Op;
 use crate::poll::Poll;
 
 /// Two goal facts that cannot hold together: one does not hold initially, and everything that achieves it deletes the

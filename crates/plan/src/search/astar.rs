@@ -3,19 +3,21 @@
 //!
 //! A node is a state together with the heuristic's memory. A node reached again on a smaller g is reopened.
 //! The search can be continued for further plans: of each node up to `paths` ways that differ in their multiset of
-//! actions are kept (with one, this is the plain search), and a plan is new if its multiset of actions is.
+//! actions are kept (with one, this is the plain search). The same multiset may lead to the goal on more than one way.
 //!
 //! Closing each state after the first path to it would lose every further plan that passes through it.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
+use std::sync::Arc;
 
-use typelift_model::{Budget, HashSet, Stop, spread};
+use typelift_model::{Budget, GroundAtom, Stop, spread};
 
-use super::{Found, Report, Search, Space};
+use super::{Found, Search, Space};
 use crate::fdr::{ActionIndex, Registry, StateId};
 use crate::heuristic::{Heuristic, Reached, Step};
 use crate::poll::Poll;
+use crate::report::Report;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct NodeId(u32);
@@ -37,6 +39,7 @@ struct Node {
 /// A* with one heuristic.
 #[derive(Debug)]
 pub(crate) struct AStar {
+    space: Arc<Space>,
     heuristic: Box<dyn Heuristic>,
     memory_len: usize,
     /// Whether h is never more than the rest costs.
@@ -48,7 +51,6 @@ pub(crate) struct AStar {
     /// The last node of each state.
     last: Vec<Option<NodeId>>,
     open: BinaryHeap<Reverse<(u64, u32, NodeId)>>,
-    found: HashSet<u64>,
     /// The most goal facts seen in an expanded state, and that state.
     closest: (usize, Option<StateId>),
     expansions: u64,
@@ -59,19 +61,19 @@ pub(crate) struct AStar {
 }
 
 impl AStar {
-    pub(crate) fn new(space: &Space, heuristic: Box<dyn Heuristic>, is_admissible: bool, paths: usize) -> Self {
+    pub(crate) fn new(space: Arc<Space>, heuristic: Box<dyn Heuristic>, is_admissible: bool, paths: usize) -> Self {
         let variables = space.task.domains.len();
         Self {
             memory_len: heuristic.memory_len(),
+            registry: Registry::new(&space.task.domains),
+            space,
             heuristic,
             is_admissible,
             paths: paths.max(1),
-            registry: Registry::new(&space.task.domains),
             memories: Vec::new(),
             nodes: Vec::new(),
             last: Vec::new(),
             open: BinaryHeap::new(),
-            found: HashSet::default(),
             closest: (0, None),
             expansions: 0,
             evaluations: 0,
@@ -147,7 +149,7 @@ impl AStar {
         }
     }
 
-    fn plan(&self, goal: NodeId) -> Vec<ActionIndex> {
+    fn actions_to(&self, goal: NodeId) -> Vec<ActionIndex> {
         let mut actions = Vec::new();
         let mut current = goal;
         while let Some((predecessor, action)) = self.nodes[current.0 as usize].came_by {
@@ -160,7 +162,8 @@ impl AStar {
 }
 
 impl Search for AStar {
-    fn next(&mut self, space: &Space, cost_bound: Option<u64>, budget: &Budget) -> Found {
+    fn next(&mut self, cost_bound: Option<u64>, budget: &Budget) -> Found {
+        let space = &*Arc::clone(&self.space);
         if self.nodes.is_empty() {
             self.after.copy_from_slice(&space.task.init);
             self.insert(space, 0, None, 0);
@@ -176,8 +179,8 @@ impl Search for AStar {
             }
             self.registry.unpack(node.state, &mut self.values);
             if space.task.is_goal(&self.values) {
-                if cost_bound.is_none_or(|bound| node.g < bound) && self.found.insert(node.actions) {
-                    return Found::Plan(self.plan(id));
+                if cost_bound.is_none_or(|bound| node.g < bound) {
+                    return Found::Plan(space.plan(&self.actions_to(id)));
                 }
                 continue;
             }
@@ -218,9 +221,10 @@ impl Search for AStar {
         }
     }
 
-    fn closest(&self) -> Option<Vec<u32>> {
+    fn missing(&self) -> Vec<(GroundAtom, bool)> {
+        let Some(closest) = self.closest.1 else { return Vec::new() };
         let mut values = vec![0; self.values.len()];
-        self.registry.unpack(self.closest.1?, &mut values);
-        Some(values)
+        self.registry.unpack(closest, &mut values);
+        self.space.missing(&values)
     }
 }

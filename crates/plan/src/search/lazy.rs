@@ -5,13 +5,16 @@
 //! alternates between them. Nothing is claimed of the first plan's cost; but where a search ends without a plan below a
 //! bound, there is none, as far as the heuristics' dead ends are dead ends.
 
-use typelift_model::{Budget, Stop};
+use std::sync::Arc;
+
+use typelift_model::{Budget, GroundAtom, Stop};
 
 use super::open_list::Alternation;
-use super::{Found, Report, Search, Space};
+use super::{Found, Search, Space};
 use crate::fdr::{ActionIndex, Registry, StateId};
 use crate::heuristic::{CostMeasure, Heuristic, Reached, Step};
 use crate::poll::Poll;
+use crate::report::Report;
 use crate::shuffle::Shuffler;
 use crate::symmetry::Untouched;
 
@@ -22,6 +25,13 @@ pub(crate) enum Priority {
     Greedy,
     /// The smallest g + w·h.
     Weighted(u32),
+}
+
+/// How states are ranked, and costs measured.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Ranking {
+    pub(crate) priority: Priority,
+    pub(crate) measure: CostMeasure,
 }
 
 /// Which actions lead to states that are listed apart.
@@ -49,6 +59,7 @@ struct Node {
 /// A lazy search.
 #[derive(Debug)]
 pub(crate) struct Lazy {
+    space: Arc<Space>,
     priority: Priority,
     preference: Preference,
     heuristics: Vec<Box<dyn Heuristic>>,
@@ -80,9 +91,8 @@ pub(crate) struct Lazy {
 
 impl Lazy {
     pub(crate) fn new(
-        space: &Space,
-        priority: Priority,
-        measure: CostMeasure,
+        space: Arc<Space>,
+        ranking: Ranking,
         heuristics: Vec<Box<dyn Heuristic>>,
         preference: Preference,
     ) -> Self {
@@ -94,11 +104,11 @@ impl Lazy {
         }
         let variables = space.task.domains.len();
         Self {
-            priority,
+            priority: ranking.priority,
             preference,
             memory_starts,
             memory_len,
-            costs: measure.of(&space.task),
+            costs: ranking.measure.of(&space.task),
             registry: Registry::new(&space.task.domains),
             nodes: Vec::new(),
             memories: Vec::new(),
@@ -117,6 +127,7 @@ impl Lazy {
             preferred: vec![0; space.task.action_count()],
             shuffler: None,
             heuristics,
+            space,
         }
     }
 
@@ -125,7 +136,7 @@ impl Lazy {
         Self { shuffler: Some(shuffler), ..self }
     }
 
-    fn plan(&self, goal: StateId) -> Vec<ActionIndex> {
+    fn actions_to(&self, goal: StateId) -> Vec<ActionIndex> {
         let mut actions = Vec::new();
         let mut state = goal;
         loop {
@@ -239,7 +250,8 @@ impl Lazy {
 }
 
 impl Search for Lazy {
-    fn next(&mut self, space: &Space, cost_bound: Option<u64>, budget: &Budget) -> Found {
+    fn next(&mut self, cost_bound: Option<u64>, budget: &Budget) -> Found {
+        let space = &*Arc::clone(&self.space);
         let limit = budget.expansions.map(|allowed| self.expansions + allowed);
         let mut poll = Poll::new(budget);
         let mut keys = Vec::new();
@@ -248,7 +260,7 @@ impl Search for Lazy {
             let (id, _) = self.registry.insert(&self.values);
             self.new_node(Node { parent: id, action: 0, g: 0, cost: 0, is_dead_end: false });
             if space.task.is_goal(&self.values) && cost_bound.is_none_or(|bound| bound > 0) {
-                return Found::Plan(Vec::new());
+                return Found::Plan(space.plan(&[]));
             }
             if limit == Some(0) {
                 self.nodes.clear();
@@ -288,11 +300,11 @@ impl Search for Lazy {
                 self.reopened += 1;
             }
             if space.task.is_goal(&self.values) {
-                let plan = self.plan(id);
+                let actions = self.actions_to(id);
                 // A predecessor may have been reached again on another way since.
-                let costs = plan.iter().map(|&action| u64::from(space.task.actions.costs[action as usize]));
+                let costs = actions.iter().map(|&action| u64::from(space.task.actions.costs[action as usize]));
                 if cost_bound.is_none_or(|bound| costs.sum::<u64>() < bound) {
-                    return Found::Plan(plan);
+                    return Found::Plan(space.plan(&actions));
                 }
                 continue;
             }
@@ -313,9 +325,10 @@ impl Search for Lazy {
         self.improvements
     }
 
-    fn closest(&self) -> Option<Vec<u32>> {
+    fn missing(&self) -> Vec<(GroundAtom, bool)> {
+        let Some(closest) = self.closest.1 else { return Vec::new() };
         let mut values = vec![0; self.values.len()];
-        self.registry.unpack(self.closest.1?, &mut values);
-        Some(values)
+        self.registry.unpack(closest, &mut values);
+        self.space.missing(&values)
     }
 }

@@ -1,59 +1,30 @@
-//! Searches. Each can be continued.
+//! Searches. Whatever can be asked for one plan after another is a [`Search`]: one open list, several in turn, one after the
+//! other for cheaper and cheaper plans, with few objects and then with more.
 
 mod astar;
-mod interleaved;
 mod lazy;
 mod open_list;
+mod portfolio;
+mod restarts;
+mod space;
 
 use std::fmt::Debug;
 
 pub(crate) use astar::AStar;
-pub(crate) use interleaved::{Attempts, EAGER, Interleaved};
-pub(crate) use lazy::{Lazy, Preference, Priority};
+pub(crate) use lazy::{Lazy, Preference, Priority, Ranking};
+pub(crate) use portfolio::{EAGER, Member, Portfolio};
+pub(crate) use restarts::{Restartable, Restarts};
+pub(crate) use space::Space;
 
-use typelift_model::{Budget, Stop};
+use typelift_model::{Budget, GroundAtom, Plan, Stop};
 
-use crate::fdr::{ActionIndex, Fdr, SuccessorGenerator};
-use crate::symmetry::Symmetry;
-
-/// What grounding and search counted.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Report {
-    /// How often what can be reached was worked out, for planning and, before it, for imagination.
-    pub groundings: u64,
-    /// Ground actions.
-    pub ground_actions: u64,
-    /// Facts.
-    pub facts: u64,
-    /// Nodes expanded.
-    pub expansions: u64,
-    /// Nodes evaluated by heuristics.
-    pub evaluations: u64,
-    /// Nodes opened again, having been reached on a smaller g.
-    pub reopened: u64,
-}
-
-/// What is searched.
-#[derive(Debug)]
-pub(crate) struct Space {
-    pub(crate) task: Fdr,
-    pub(crate) successors: SuccessorGenerator,
-    pub(crate) symmetry: Symmetry,
-}
-
-impl Space {
-    /// What is searched is this task.
-    pub(crate) fn new(task: Fdr, symmetry: Symmetry) -> Self {
-        let successors = SuccessorGenerator::new(&task);
-        Self { task, successors, symmetry }
-    }
-}
+use crate::report::Report;
 
 /// What a search came to.
 #[derive(Debug)]
 pub(crate) enum Found {
-    /// A plan that was not found before, as the search tells plans apart.
-    Plan(Vec<ActionIndex>),
+    /// A plan, perhaps one that was found before: who asks tells them apart.
+    Plan(Plan),
     /// Everything that is not too dear was searched.
     Nothing,
     /// The budget ended it.
@@ -62,10 +33,11 @@ pub(crate) enum Found {
 
 /// A search that can be continued.
 pub(crate) trait Search: Debug + Send {
-    /// Searches on for a plan cheaper than the bound, if there is one; everything dearer is pruned from now on.
-    fn next(&mut self, space: &Space, cost_bound: Option<u64>, budget: &Budget) -> Found;
+    /// Searches on for a plan cheaper than the bound, if there is one; everything dearer is pruned from now on. The budget's
+    /// expansions are for this call.
+    fn next(&mut self, cost_bound: Option<u64>, budget: &Budget) -> Found;
 
-    /// What was counted.
+    /// What was counted since it began.
     fn report(&self) -> Report;
 
     /// How often it came nearer to the goal than ever before, by an estimate.
@@ -73,6 +45,6 @@ pub(crate) trait Search: Debug + Send {
         0
     }
 
-    /// The state expanded so far in which most goal facts held.
-    fn closest(&self) -> Option<Vec<u32>>;
+    /// What of the goal was missing in the state expanded so far in which most of it held, and whether each must hold.
+    fn missing(&self) -> Vec<(GroundAtom, bool)>;
 }

@@ -2,9 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::{Assignment, Place, Values};
+use crate::assignment::{Assignment, Place, Values};
 use crate::fact::FactId;
-use crate::ground::Op;
+use crate::op::Op;
 
 /// The value of a derived fact's variable that holds, and the one that does not.
 pub(crate) const FOLLOWS: u32 = 0;
