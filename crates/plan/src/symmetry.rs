@@ -184,3 +184,36 @@ fn classes(model: &ActionModel, task: &Task) -> Vec<Vec<Symbol>> {
     classes.sort_unstable();
     classes
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::worked::Worked;
+
+    /// The actions of a problem that are tried in a state, as far as symmetry goes.
+    fn tried(worked: &Worked, atoms: &str) -> Vec<String> {
+        let symmetry = Symmetry::of(worked.model(), worked.task(), &worked.ground, &worked.fdr);
+        let mut untouched = Untouched::default();
+        symmetry.look_at(&worked.fdr, &worked.values_of(atoms), &mut untouched);
+        let all = 0..worked.fdr.action_count() as u32;
+        worked.names(&all.filter(|&action| symmetry.takes_first(action, &mut untouched)).collect::<Vec<_>>())
+    }
+
+    #[test]
+    fn of_three_cups_alike_the_first_is_taken_until_it_is_touched() {
+        let worked = Worked::new(
+            "init: clean(a) clean(b) clean(c) clean(mug) big(mug)
+             goal: tea
+             fill(?0): clean(?0) -> full(?0) !clean(?0)
+             drink(?0): full(?0) -> tea !full(?0)",
+        );
+        // The mug is like none of the others.
+        assert_eq!(
+            tried(&worked, "clean(a) clean(b) clean(c) clean(mug)"),
+            ["drink(a)", "drink(mug)", "fill(a)", "fill(mug)"]
+        );
+        // Of a, which is touched, everything is tried, and of the others the first that is not.
+        let after = tried(&worked, "full(a) clean(b) clean(c) clean(mug)");
+        assert_eq!(after, ["drink(a)", "drink(b)", "drink(mug)", "fill(a)", "fill(b)", "fill(mug)"]);
+    }
+}

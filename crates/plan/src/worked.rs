@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use typelift_model::testing::Tiny;
-use typelift_model::{Budget, State, Symbol};
+use typelift_model::{ActionModel, Budget, Symbol, Task};
 
 use crate::Restrictions;
+use crate::fact::FactId;
 use crate::fdr::{ActionIndex, Fdr};
 use crate::ground::{GroundTask, TieOrder, ground};
 use crate::heuristic::{Heuristic, Reached, Step};
@@ -30,21 +31,32 @@ impl Worked {
         Self { tiny, ground, fdr, relaxation: Arc::new(relaxation) }
     }
 
+    pub(crate) fn model(&self) -> &ActionModel {
+        &self.tiny.model
+    }
+
+    pub(crate) fn task(&self) -> &Task {
+        &self.tiny.task
+    }
+
+    /// Some atoms as facts.
+    pub(crate) fn facts_of(&self, atoms: &str) -> Vec<FactId> {
+        let fact = |atom| self.ground.facts().find(atom).unwrap_or_else(|| panic!("{atom} is never reached"));
+        self.tiny.state(atoms).atoms.iter().map(fact).collect()
+    }
+
     /// The values of the state in which these atoms hold and no others.
-    fn values(&self, state: &State) -> Vec<u32> {
+    pub(crate) fn values_of(&self, atoms: &str) -> Vec<u32> {
         let mut values: Vec<u32> = self.fdr.domains.iter().map(|size| size - 1).collect();
-        for atom in &state.atoms {
-            let fact = self.ground.facts().find(atom).unwrap_or_else(|| panic!("{atom} is never reached"));
-            if let Some(at) = self.fdr.assignment(fact) {
-                values[at.variable as usize] = at.value;
-            }
+        for at in self.facts_of(atoms).into_iter().filter_map(|fact| self.fdr.assignment(fact)) {
+            values[at.variable as usize] = at.value;
         }
         values
     }
 
     /// What a heuristic says of the state in which these atoms hold and no others.
     pub(crate) fn estimate(&self, heuristic: &mut dyn Heuristic, atoms: &str) -> Option<u32> {
-        let values = self.values(&self.tiny.state(atoms));
+        let values = self.values_of(atoms);
         let mut memory = vec![0; heuristic.memory_len()];
         heuristic.estimate(&self.fdr, Reached { values: &values, by: None }, &mut memory)
     }

@@ -295,3 +295,37 @@ impl<'a> Finder<'a> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::worked::Worked;
+
+    #[test]
+    fn a_ball_is_in_one_place_and_a_hand_holds_one_thing() {
+        let worked = Worked::new(
+            "init: room(a) room(b) robby(a) at(red,a) at(blue,a) free
+             goal: at(red,b) at(blue,b)
+             move(?0,?1): robby(?0) room(?1) -> robby(?1) !robby(?0)
+             pick(?0,?1): at(?0,?1) robby(?1) free -> held(?0) !at(?0,?1) !free
+             drop(?0,?1): held(?0) robby(?1) -> at(?0,?1) free !held(?0)",
+        );
+        let exclude_each_other = |atoms: &str| worked.fdr.mutexes.excluded_pair(&worked.facts_of(atoms)).is_some();
+        for pair in [
+            "robby(a) robby(b)",
+            "at(red,a) at(red,b)",
+            "at(red,a) held(red)",
+            "held(red) held(blue)",
+            "held(red) free",
+        ] {
+            assert!(exclude_each_other(pair), "{pair}");
+        }
+        for pair in ["robby(a) at(red,a)", "at(red,a) at(blue,a)", "at(red,a) held(blue)", "at(red,a) free"] {
+            assert!(!exclude_each_other(pair), "{pair}");
+        }
+        // Each ball has a variable of three values, its two rooms and the hand; the robot of two, its rooms; and the hand, of
+        // which only free is left, of one. Each has one more value, for none of these.
+        let mut sizes = worked.fdr.domains.clone();
+        sizes.sort_unstable();
+        assert_eq!(sizes, [2, 3, 4, 4]);
+    }
+}

@@ -195,3 +195,55 @@ impl Orders<'_> {
         Ok(sequence)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::worked::Worked;
+
+    /// The landmarks of the egg, in their order.
+    fn of_the_egg(text: &str) -> Vec<String> {
+        let worked = Worked::new(text);
+        let sequences = sequences(&worked.ground, &worked.fdr, &Budget::unlimited()).expect("no limits");
+        let [LandmarkSequence { facts, .. }] = &sequences[..] else { panic!("one goal object: {sequences:?}") };
+        facts.iter().map(|&fact| worked.ground.atom(fact).to_string()).collect()
+    }
+
+    #[test]
+    fn what_is_needed_again_is_there_again() {
+        // Boiling puts the egg down, and serving needs it in the hand.
+        let landmarks = of_the_egg(
+            "init: lying(egg)
+             goal: served(egg)
+             take(?0): lying(?0) -> held(?0) !lying(?0)
+             boil(?0): held(?0) -> boiled(?0) lying(?0) !held(?0)
+             serve(?0): held(?0) boiled(?0) -> served(?0) !held(?0)",
+        );
+        assert_eq!(landmarks, ["held(egg)", "boiled(egg)", "held(egg)", "served(egg)"]);
+    }
+
+    #[test]
+    fn what_puts_the_egg_down_comes_last() {
+        // Both need it in the hand, and boiling puts it down: so it is washed first, although b comes before w.
+        let landmarks = of_the_egg(
+            "init: lying(egg)
+             goal: boiled(egg) washed(egg)
+             take(?0): lying(?0) -> held(?0) !lying(?0)
+             boil(?0): held(?0) -> boiled(?0) lying(?0) !held(?0)
+             wash(?0): held(?0) -> washed(?0)",
+        );
+        assert_eq!(landmarks, ["held(egg)", "washed(egg)", "boiled(egg)"]);
+    }
+
+    #[test]
+    fn what_would_be_foreclosed_comes_first() {
+        // A fried egg is never raw again, and only a raw one can be painted: it is painted first, although f comes before p.
+        let landmarks = of_the_egg(
+            "init: raw(egg)
+             goal: fried(egg) painted(egg)
+             fry(?0): raw(?0) -> fried(?0) !raw(?0)
+             paint(?0): raw(?0) -> painted(?0)",
+        );
+        assert_eq!(landmarks, ["painted(egg)", "fried(egg)"]);
+    }
+}

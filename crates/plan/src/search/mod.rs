@@ -2,6 +2,8 @@
 //! other for cheaper and cheaper plans, with few objects and then with more.
 
 mod astar;
+#[cfg(test)]
+mod endless;
 mod lazy;
 mod open_list;
 mod portfolio;

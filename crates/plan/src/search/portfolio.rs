@@ -86,3 +86,33 @@ impl Search for Portfolio {
         self.members.first().map(|first| first.search.missing()).unwrap_or_default()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::search::endless::{Endless, expanded};
+
+    /// What each of two searches that find nothing has expanded after so many expansions of both.
+    fn after(expansions: u64, improving: bool) -> [u64; 2] {
+        let (one, first) = Endless::new(improving);
+        let (other, second) = Endless::new(false);
+        let member = |search, weight| Member { search: Box::new(search), weight };
+        let mut portfolio = Portfolio::new(vec![member(one, EAGER), member(other, 1)]);
+        let found = portfolio.next(None, &Budget::with_expansions(expansions));
+        assert!(matches!(found, Found::Stopped(Stop::Expansions)));
+        [expanded(&first), expanded(&second)]
+    }
+
+    #[test]
+    fn turns_grow_by_a_quarter() {
+        // 600 for each, of which the first, whose expansions count as eight, makes 75; then 750, of which it makes 93.
+        assert_eq!(after(50, false), [50, 0]);
+        assert_eq!(after(75 + 600, false), [75, 600]);
+        assert_eq!(after(75 + 600 + 93 + 750, false), [75 + 93, 600 + 750]);
+    }
+
+    #[test]
+    fn a_turn_that_brings_progress_goes_on() {
+        assert_eq!(after(1_000, true), [1_000, 0]);
+    }
+}

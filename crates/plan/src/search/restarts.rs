@@ -89,9 +89,39 @@ fn luby(number: u64) -> u64 {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::{Arc, Mutex};
+
+    use super::*;
+    use crate::search::endless::{Endless, Expanded, expanded};
+
     #[test]
     fn lengths_of_attempts() {
-        let lengths: Vec<u64> = (1..=15).map(super::luby).collect();
+        let lengths: Vec<u64> = (1..=15).map(luby).collect();
         assert_eq!(lengths, [1, 1, 2, 1, 1, 2, 4, 1, 1, 2, 1, 1, 2, 4, 8]);
+    }
+
+    /// Attempts that find nothing.
+    #[derive(Debug, Default)]
+    struct Hopeless(Arc<Mutex<Vec<Expanded>>>);
+
+    impl Restartable for Hopeless {
+        fn attempt(&self, _: u64) -> Box<dyn Search> {
+            let (search, expanded) = Endless::new(false);
+            self.0.lock().expect("one thread").push(expanded);
+            Box::new(search)
+        }
+    }
+
+    #[test]
+    fn every_attempt_has_its_length() {
+        let attempts = Arc::default();
+        let mut restarts = Restarts::new(Box::new(Hopeless(Arc::clone(&attempts))));
+        // However often it is stopped.
+        for _ in 0..9 {
+            assert!(matches!(restarts.next(None, &Budget::with_expansions(300)), Found::Stopped(Stop::Expansions)));
+        }
+        let lengths: Vec<u64> = attempts.lock().expect("one thread").iter().map(expanded).collect();
+        assert_eq!(lengths, [500, 500, 1_000, 500, 200]);
+        assert_eq!(restarts.report().expansions, 2_700);
     }
 }
