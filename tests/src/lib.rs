@@ -1,6 +1,7 @@
 //! What the tests that cross rooms share; the tests themselves are in `tests/tests`.
 
 pub mod readers;
+pub mod schema;
 pub mod seen;
 pub mod source;
 mod worlds;

@@ -15,6 +15,7 @@ use typelift::model::{ActionModel, Budget, GroundCall, ParseConfig, Plan, Step, 
 use typelift::plan::{self, Exclusion, TypeExclusion};
 use typelift::world::{Acted, Parser, Reset, Scene, Verdict, World};
 use typelift_kitchen::{Kitchen, KitchenTask, faults, tasks};
+use typelift_tests::schema::Schema;
 use typelift_tests::{Ran, Watched, approve, kitchen_model, paper_options, run_in};
 
 const SEEDS: std::ops::Range<u64> = 0..5;
@@ -523,12 +524,15 @@ fn commands(task: &KitchenTask, options: &Options, saved: impl Fn(Episode, usize
 #[test]
 fn saving_and_restoring_changes_no_command() {
     let model = Arc::new(kitchen_model(false));
+    let schema = Schema::named("episode");
     for task in faults() {
         for options in [paper_options(true), going_on()] {
             let plan = plan::Options { plans: 2, ..options.plan };
             let options = Options { plan, ..options };
             let restored = |episode: Episode| {
                 let (text, budget) = (episode.save(), Budget::with_expansions(20_000));
+                let json = serde_json::from_str(&text).expect("JSON");
+                assert_eq!(schema.check(&json), Ok(()), "{}", task.name);
                 let again = Episode::restore(&text, Arc::clone(&model), options.clone(), budget).expect("it was saved");
                 assert_eq!(again.save(), text, "{}", task.name);
                 again

@@ -1,7 +1,7 @@
 //! The account of an episode: what was tried, what failed and was excluded and why, and how it ended.
 
 use serde::{Deserialize, Serialize};
-use typelift_model::{GroundCall, Plan, Stop, Symbol};
+use typelift_model::{GoalTypeMismatch, GroundCall, Plan, Stop, Symbol};
 use typelift_plan::Explanation;
 
 use crate::blame::Suspect;
@@ -10,6 +10,7 @@ use crate::resort::LastResorts;
 
 /// How an episode ended.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Ending {
     /// The goal was seen to hold.
@@ -40,6 +41,7 @@ impl Ending {
 
 /// A step that failed.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Failure {
     /// The proposal's number, from 1.
     pub proposal: u64,
@@ -64,6 +66,7 @@ pub struct Failure {
 
 /// The account of an episode.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Account {
     /// How it ended.
     pub ending: Ending,
@@ -82,6 +85,9 @@ pub struct Account {
     pub ground_actions: u64,
     /// What was given up where nothing else was left.
     pub resorts: LastResorts,
+    /// Where the goal goes beyond the types of which the model has its predicates, if nothing was left to try.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub goal_type_mismatches: Vec<GoalTypeMismatch>,
 }
 
 impl Account {
@@ -96,6 +102,7 @@ impl Account {
             expansions: 0,
             ground_actions: 0,
             resorts: LastResorts::default(),
+            goal_type_mismatches: Vec::new(),
         }
     }
 

@@ -10,6 +10,7 @@ use crate::objection::Objection;
 
 /// An object that took part in an action.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Participant {
     /// Its name, which means something in its instance only.
     pub object: Symbol,
@@ -23,6 +24,7 @@ pub struct Participant {
 
 /// Who took part in what, where.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Deed {
     /// The instance of the world.
     pub instance: Symbol,
@@ -55,6 +57,7 @@ impl Deed {
 
 /// A deed that worked, and how often.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Success {
     /// What was done.
     pub deed: Deed,
@@ -64,6 +67,7 @@ pub struct Success {
 
 /// A deed that failed, its retries too, or that a person rejected.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Failed {
     /// What was done.
     pub deed: Deed,

@@ -22,15 +22,20 @@ use crate::turn::{Command, CommandId, Input};
 
 /// What the episode waits for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Phase {
+    /// The start.
     New,
     /// The first state, or the initial state again.
     AwaitingReset,
+    /// Of the plan that is proposed.
     AwaitingApproval,
+    /// Of the step that was commanded.
     AwaitingResult,
     /// The result of a step that timed out is about to be observed.
     AwaitingLateState,
+    /// Nothing.
     Over,
 }
 

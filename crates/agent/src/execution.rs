@@ -10,6 +10,7 @@ use crate::blame::Condition;
 
 /// On what terms a plan is made.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub(crate) struct Terms {
     /// What is avoided.
     pub(crate) restrictions: Restrictions,

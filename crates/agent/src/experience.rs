@@ -19,6 +19,7 @@ pub struct Remembered {
 
 /// What was tried in the tasks of a run.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Experience {
     /// How many tasks were begun.
     tasks: u64,

@@ -44,7 +44,10 @@ impl Episode {
                 let plan = plan.clone();
                 return Ok(self.offer(plan, proposal, terms, plans_given, observer));
             }
-            Outcome::Unsolvable | Outcome::NoMorePlans => Ending::NoPlan(proposal.explain()),
+            Outcome::Unsolvable | Outcome::NoMorePlans => {
+                self.account.goal_type_mismatches = proposal.goal_type_mismatches();
+                Ending::NoPlan(proposal.explain())
+            }
             Outcome::Stopped(stop) => Ending::Stopped(*stop),
         };
         Ok(self.end(ending, observer))

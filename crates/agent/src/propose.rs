@@ -5,7 +5,7 @@ use std::sync::Arc;
 use thiserror::Error;
 use typelift_check::{Invalid, check};
 use typelift_imagine::{Imagination, imagine_from};
-use typelift_model::{ActionModel, Budget, Plan, Stop, Task, strict};
+use typelift_model::{ActionModel, Budget, GoalTypeMismatch, Plan, Stop, Task, strict};
 use typelift_plan::{Explanation, ExternalFailure, Outcome, Planner, Reachable, Report, Restrictions};
 
 use crate::options::Options;
@@ -52,6 +52,15 @@ impl Proposal {
             Searched::Own(planner) => planner.explain(),
             Searched::External(_) => Explanation::Told,
         }
+    }
+
+    /// Where the goal goes beyond the types of which the model has its predicates: worth saying if there is no plan.
+    pub fn goal_type_mismatches(&self) -> Vec<GoalTypeMismatch> {
+        let task = match &self.searched {
+            Searched::Own(planner) => planner.task(),
+            Searched::External(asked) => &asked.1,
+        };
+        task.goal.type_mismatches(&task.init, &self.model)
     }
 
     /// A further plan, checked. Somebody else's planner is asked only once.

@@ -42,6 +42,7 @@ impl Resort {
 
 /// What became of a resort.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum ResortState {
     /// It was not needed, or does not apply.
@@ -54,6 +55,7 @@ pub enum ResortState {
 
 /// A resort, and what became of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct LastResort {
     /// The resort.
     pub resort: Resort,
@@ -63,6 +65,7 @@ pub struct LastResort {
 
 /// The resorts of an episode, in the order in which they are tried.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(transparent)]
 pub struct LastResorts(Vec<LastResort>);
 

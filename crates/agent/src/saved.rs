@@ -42,45 +42,90 @@ pub enum RestoreError {
 }
 
 #[derive(Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct SavedEpisode {
+    /// The format and its version.
+    #[cfg_attr(feature = "schema", schemars(extend("const" = EPISODE_FORMAT)))]
     format: String,
+    /// What is to be achieved.
     goal: Goal,
+    /// The values of the functions that costs mention.
     values: Vec<(GroundAtom, u32)>,
+    /// What was tried, in this task and the ones before it.
     experience: Experience,
+    /// The number of this task in the experience.
     task: u64,
+    /// The instance of the world that names belong to.
     instance: Symbol,
+    /// What the episode waits for.
     phase: Phase,
+    /// The command that stands.
     standing: CommandId,
+    /// What was observed last.
     state: SavedState,
+    /// The plan that is proposed or carried out; none before the first.
     execution: Option<SavedExecution>,
+    /// Plans that went as expected to their end and did not lead to the goal, with the states they were made for.
     in_vain: Vec<(SavedState, Steps)>,
+    /// What has happened so far; how it ended counts only once it is over.
     account: Account,
 }
 
+/// A saved episode as a type, for its JSON Schema.
+#[cfg(feature = "schema")]
+impl schemars::JsonSchema for Episode {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Episode".into()
+    }
+
+    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        SavedEpisode::json_schema(generator)
+    }
+}
+
+/// The plan that is proposed or carried out, and how far it is.
 #[derive(Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct SavedExecution {
+    /// The plan's steps.
     steps: Vec<SavedStep>,
+    /// On what terms it was made.
     terms: Terms,
+    /// The state that it was made for.
     made_for: SavedState,
+    /// How many plans the planner has given for this state and on these terms, this one included.
     plans_given: usize,
+    /// The next step, from 0.
     next_step: usize,
+    /// How many steps were executed.
     taken: usize,
+    /// How often the next step was tried again.
     retries: u32,
 }
 
+/// A step of a plan.
 #[derive(Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct SavedStep {
+    /// The action's name, in the model that the plan was made with.
     action: Symbol,
+    /// An object for each of its parameters.
     objects: Vec<Symbol>,
+    /// What the environment is told.
     call: GroundCall,
+    /// What the step costs.
     cost: u32,
 }
 
 /// A state with its types by name.
 #[derive(Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct SavedState {
+    /// The objects, with their types.
     objects: BTreeMap<Symbol, Symbol>,
+    /// The atoms that hold.
     atoms: BTreeSet<GroundAtom>,
+    /// Of a closed state: the atoms that may hold for all that is known.
     #[serde(default, skip_serializing_if = "BTreeSet::is_empty")]
     unknown: BTreeSet<Pattern<Symbol>>,
     /// Of an open state: the atoms that are known to be false.

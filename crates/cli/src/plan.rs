@@ -8,7 +8,7 @@ use std::time::Duration;
 use typelift::agent::{Options, Proposal, ProposeError, propose};
 use typelift::imagine;
 use typelift::model::{ActionModel, Budget, Plan as FoundPlan, Stop, Task};
-use typelift::plan::{Explanation, Outcome, Restrictions};
+use typelift::plan::{Outcome, Restrictions};
 use typelift::words::{AnswerView, count, ending, numbered_steps, plan_size, why_none};
 use typelift::world::write_file;
 
@@ -19,7 +19,7 @@ use crate::limits::{Clock, Interrupt, Limits};
 use crate::memory::memory_held_from_now;
 use crate::plan_file::plan_file;
 use crate::planning_options::PlanningOptions;
-use crate::style::{BAD, HEAD, HINT, painted};
+use crate::style::{BAD, HEAD, HINT, WARNING, painted};
 use crate::watchdog::watched;
 
 /// Where the plan for a PDDL problem is written unless the user says otherwise, as Fast Downward does.
@@ -122,7 +122,7 @@ impl Plan {
         }
         out.flush()?;
         if plans.is_empty() {
-            self.report_none(&last, why_none(&proposal, &last).as_ref(), &model, &task, &budget);
+            self.report_none(&last, &proposal, &model, &task, &budget);
         } else if !quiet {
             self.report_end(&last, plans.len());
         }
@@ -218,37 +218,41 @@ impl Plan {
         Ok(())
     }
 
-    /// Says why there is no plan, and whether imagination would help.
-    fn report_none(
-        &self,
-        outcome: &Outcome,
-        explanation: Option<&Explanation>,
-        model: &ActionModel,
-        task: &Task,
-        budget: &Budget,
-    ) {
+    /// Says why there is no plan, and whether imagination would help; if not, what may be wrong with the goal.
+    fn report_none(&self, outcome: &Outcome, proposal: &Proposal, model: &ActionModel, task: &Task, budget: &Budget) {
         let ending = match outcome {
             Outcome::Stopped(Stop::Expansions) if self.planning.planner.is_given() => "the planner gave up".to_owned(),
             outcome => ending(outcome),
         };
-        let why = explanation.map_or(ending, ToString::to_string);
+        let explanation = why_none(proposal, outcome);
+        let why = explanation.as_ref().map_or(ending, ToString::to_string);
         for line in why.lines() {
             anstream::eprintln!("{BAD}no plan{BAD:#}: {line}");
         }
-        if self.planning.model.imagine || *outcome != Outcome::Unsolvable {
+        if explanation.is_none() || self.hint_at_imagining(outcome, model, task, budget) {
             return;
         }
+        for mismatch in proposal.goal_type_mismatches() {
+            anstream::eprintln!("{WARNING}note{WARNING:#}: {mismatch}");
+        }
+    }
+
+    /// Says that imagination would help, if it was not asked for and does; whether it said so.
+    fn hint_at_imagining(&self, outcome: &Outcome, model: &ActionModel, task: &Task, budget: &Budget) -> bool {
+        if self.planning.model.imagine || *outcome != Outcome::Unsolvable {
+            return false;
+        }
         let limited = Budget { expansions: Some(HINT_EXPANSIONS), ..budget.clone() };
-        let Ok(options) = self.options(false) else { return };
+        let Ok(options) = self.options(false) else { return false };
         let options = Options { imagine: Some(imagine::Options::default()), ..options };
         let imagined = propose(model, task, &Restrictions::default(), &options, &limited);
-        if let Ok(Proposal { outcome: Outcome::Solved(plan), .. }) = imagined {
-            anstream::eprintln!(
-                "{HINT}hint{HINT:#}: --imagine finds a plan of {} resting on {}",
-                count(plan.len() as u64, "step"),
-                count(plan.imagined_actions() as u64, "imagined action")
-            );
-        }
+        let Ok(Proposal { outcome: Outcome::Solved(plan), .. }) = imagined else { return false };
+        anstream::eprintln!(
+            "{HINT}hint{HINT:#}: --imagine finds a plan of {} resting on {}",
+            count(plan.len() as u64, "step"),
+            count(plan.imagined_actions() as u64, "imagined action")
+        );
+        true
     }
 
     /// Says why there are no more plans, where more were wanted.

@@ -44,6 +44,18 @@ impl Serialize for Stop {
     }
 }
 
+#[cfg(feature = "schema")]
+impl schemars::JsonSchema for Stop {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Stop".into()
+    }
+
+    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let words: Vec<&str> = Self::ALL.iter().map(|stop| stop.word()).collect();
+        schemars::json_schema!({ "description": "Why something was ended early.", "type": "string", "enum": words })
+    }
+}
+
 impl<'de> Deserialize<'de> for Stop {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let word = String::deserialize(deserializer)?;

@@ -18,6 +18,7 @@ use crate::{ArgumentTypes, GroundAtom, State, Symbol, nearest};
 /// # Ok::<(), typelift_model::AtomTextError>(())
 /// ```
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Goal {
     /// The atoms that must all hold, in the order in which they were asked for.
     pub required: Vec<GroundAtom>,

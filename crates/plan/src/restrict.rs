@@ -68,6 +68,7 @@ impl fmt::Display for TypeExclusion {
 /// A ground action that may not be used: this call, expected to have this effect. Another action with the same call
 /// and another effect may.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Ban {
     /// The action schema. Where its effects have conditions they depend on the state, and schema and call decide.
     pub action: Symbol,
@@ -93,6 +94,7 @@ impl Ban {
 
 /// Objects, types at places and ground actions that grounding leaves out.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Restrictions {
     /// Excluded objects.
     pub excluded: BTreeSet<Exclusion>,

@@ -2,13 +2,13 @@
 
 use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema};
-use typelift_agent::{Event, Input, WireCommand};
+use typelift_agent::{Episode, Event, Input, WireCommand};
 use typelift_model::LearnedModel;
 use typelift_words::{AccountView, AnswerView};
 use typelift_world::{Answer, Request, Scene, TaskFile, TraceLine};
 
 /// Each schema, by the name that its file has. A trace is described by the schema of one of its lines.
-pub fn schemas() -> [(&'static str, serde_json::Value); 10] {
+pub fn schemas() -> [(&'static str, serde_json::Value); 11] {
     [
         ("trace", schema::<TraceLine<'_>>("A line of a trace, format trace/1")),
         ("task", schema::<TaskFile>("A task, format task/1")),
@@ -18,6 +18,7 @@ pub fn schemas() -> [(&'static str, serde_json::Value); 10] {
         ("event", schema::<Event>("Something that happens during an episode, a line of `run --events`")),
         ("env-request", schema::<Request>("A request to an environment, protocol env/1")),
         ("env-answer", schema::<Answer>("An environment's answer, protocol env/1")),
+        ("episode", schema::<Episode>("A saved episode, format episode/1")),
         ("episode-command", schema::<WireCommand>("What an episode tells its driver to do")),
         ("episode-input", schema::<Input<Scene>>("What a driver reports to its episode")),
     ]

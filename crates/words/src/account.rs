@@ -24,6 +24,9 @@ pub struct AccountView {
     /// Why there was nothing left to try, as data.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reasons: Option<Explanation>,
+    /// What is to be noted about the goal, in words.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<String>,
     /// Plans proposed, the successful one included.
     pub proposals: u64,
     /// Actions executed, retries included.
@@ -91,6 +94,7 @@ impl AccountView {
                 Ending::NoPlan(explanation) => Some(explanation.clone()),
                 _ => None,
             },
+            notes: account.goal_type_mismatches.iter().map(ToString::to_string).collect(),
             proposals: account.proposals,
             actions: account.actions,
             plan_length: plan.map(Plan::len),
@@ -174,6 +178,8 @@ pub fn summary(task: &str, account: &Account, planning_ms: u128) -> Vec<Text> {
     }
     let why = why_not(&account.ending);
     lines.extend(why.iter().flat_map(|why| why.lines()).map(|line| Text::new().plain(format!("  {line}"))));
+    let notes = account.goal_type_mismatches.iter();
+    lines.extend(notes.map(|note| Text::new().plain("  ").with(Role::Warning, "note").plain(format!(": {note}"))));
     lines
 }
 

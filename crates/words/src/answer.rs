@@ -33,6 +33,9 @@ pub struct AnswerView {
     /// The same as data.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reasons: Option<Explanation>,
+    /// What is to be noted about the goal, in words.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<String>,
 }
 
 impl AnswerView {
@@ -50,6 +53,7 @@ impl AnswerView {
             evaluations: report.evaluations,
             bytes,
             seconds,
+            notes: explanation.iter().flat_map(|_| proposal.goal_type_mismatches()).map(|m| m.to_string()).collect(),
             explanation: explanation.as_ref().map(Explanation::to_string),
             reasons: explanation,
         }

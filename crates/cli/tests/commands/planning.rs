@@ -31,6 +31,22 @@ fn no_plan_says_why_and_whether_imagining_helps() {
 }
 
 #[test]
+fn a_goal_beyond_all_types_is_noted_where_there_is_no_plan() {
+    let folder = Folder::kitchen();
+    let goals = ["content_holds(plate_1,agent_1)", "holding_holds(lettuce_1,agent_1)"];
+    let change = |task: &mut serde_json::Value| task["goal"] = goals.as_slice().into();
+    folder.changed("K/tasks/T1.1.json", "odd.json", change);
+    insta::assert_snapshot!("no-plan-with-note", folder.run("plan kitchen.json odd.json"));
+    let run = folder.run("run kitchen.json odd.json --kitchen --imagine");
+    assert_eq!(run.code, 12);
+    insta::assert_snapshot!("run-no-plan-with-note", run);
+    let told = folder.run("run kitchen.json odd.json --kitchen --json");
+    assert!(told.out.contains(r#""notes":["in the goal content_holds(plate_1,agent_1): "#), "{told}");
+    let helped = folder.run("plan kitchen.json K/tasks/T4.1.json");
+    assert!(helped.err.contains("hint: --imagine") && !helped.err.contains("note:"), "imagining is the way: {helped}");
+}
+
+#[test]
 fn imagined_steps_are_marked() {
     let folder = Folder::kitchen();
     insta::assert_snapshot!("imagine", folder.run("plan kitchen.json K/tasks/T4.1.json --imagine -o apple.plan"));
