@@ -13,12 +13,19 @@ use typelift::model::{
 use typelift::world::{Dataset, Trace};
 use typelift_kitchen::demonstrations;
 use typelift_tests::dataset_of;
+use typelift_tests::open::{kinds_of, opened};
 
-/// Demonstrations in several rooms, which differ in what holds and have names in common.
+/// Demonstrations in several rooms, which differ in what holds and have names in common. Two have open states, and one of
+/// them does not list everything.
 fn shown() -> Dataset {
     let mut dataset = dataset_of(&demonstrations(0));
     dataset.traces.truncate(5);
     dataset.traces.extend(dataset_of(&demonstrations(1)).traces.into_iter().take(3));
+    let kinds = kinds_of(&dataset);
+    let fewer = kinds.iter().take(kinds.len() / 2).cloned().collect();
+    for (index, kinds) in [(2, &kinds), (6, &fewer)] {
+        dataset.traces[index] = opened(&dataset.traces[index], &dataset.hierarchy, kinds, |_| false);
+    }
     dataset
 }
 

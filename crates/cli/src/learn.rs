@@ -236,6 +236,13 @@ impl Learn {
             anstream::eprintln!("{WARNING}warning{WARNING:#}: {name} ({id}) is in the model already; it counts once");
         }
         warn(dataset.traces.iter().flat_map(|trace| &trace.warnings));
+        let unexplained = &model.evidence.total().unexplained;
+        let hidden = [Unexplained::PartlyObserved, Unexplained::UnlistedKinds];
+        if dataset.has_open_states() && hidden.iter().any(|reason| unexplained.contains_key(reason)) {
+            anstream::eprintln!(
+                "{HINT}hint{HINT:#}: in a trajectory that lists a (not …), what is listed neither way is unknown; --closed takes it for false"
+            );
+        }
         for rule in &dataset.unmatched_ignores {
             anstream::eprintln!("{WARNING}warning{WARNING:#}: --ignore {rule}: there is no such attribute or relation");
             if let Some(source) = dataset.attributes.get(rule) {
@@ -327,7 +334,8 @@ fn print_counts(out: &mut impl Write, model: &LearnedModel, report: &learn::Repo
     for (reason, (times, witnesses)) in &model.evidence.total().unexplained {
         let reason = match reason {
             Unexplained::ObjectsChanged => "entities appeared or vanished",
-            Unexplained::PartlyObserved => "something about their entities is unknown",
+            Unexplained::PartlyObserved => "what they may have changed is unknown in part",
+            Unexplained::UnlistedKinds => "their states do not list a kind of atoms that others list",
             Unexplained::TooLarge => "too many entities take part",
             Unexplained::TooSymmetric => "too many entities changed alike to tell them apart",
             Unexplained::NotExecuted => "something changed, though the action was not executed",

@@ -12,17 +12,18 @@
 //! without any difference in one order only. If more than [`LEAF_BOUND`] orders are left, the transition is reported as
 //! too symmetric rather than labelled by chance.
 //!
-//! A transition in which an atom over its parameters is unknown is reported, and nothing is learned from it: to take the
-//! atom for false would drop preconditions, or weaken the effect, without a counterexample.
+//! A transition that may have changed something unseen (`open.rs`) is reported, and nothing is learned from it: to take the
+//! unknown for false would drop preconditions, or weaken the effect, without a counterexample.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use typelift_model::{
-    ClusterKey, GroundAtom, Hierarchy, LiftedAtom, MOST_PARAMETERS, NegativeKey, Observations, Symbol, Term,
-    Unexplained, Unknown,
+    ClusterKey, GroundAtom, Hierarchy, LiftedAtom, MOST_PARAMETERS, NegativeKey, Observations, State, Symbol, Term,
+    Unexplained,
 };
 use typelift_world::Transition;
 
+use crate::open::view;
 use crate::outcome::{Outcome, outcome};
 
 /// Orders of the entities of one effect that are compared at most.
@@ -34,12 +35,12 @@ pub fn observe(evidence: &mut Observations, transition: &Transition<'_>, hierarc
     let (before, after, call) = (transition.before, transition.after, &transition.action.call);
     let outcome = outcome(transition.action);
     if outcome == Outcome::Undecided {
-        evidence.add_unexplained(Unexplained::TimedOut, transition.witness());
+        evidence.add_unexplained(Unexplained::TimedOut, &transition.witness());
         return;
     }
     let same_objects = before.objects == after.objects;
     if !same_objects && outcome == Outcome::AsShown || call.args.iter().any(|arg| !before.objects.contains_key(arg)) {
-        evidence.add_unexplained(Unexplained::ObjectsChanged, transition.witness());
+        evidence.add_unexplained(Unexplained::ObjectsChanged, &transition.witness());
         return;
     }
     let adds: Vec<&GroundAtom> = before.added(after).collect();
@@ -47,16 +48,17 @@ pub fn observe(evidence: &mut Observations, transition: &Transition<'_>, hierarc
     let changed = !same_objects || !adds.is_empty() || !deletes.is_empty();
     let result = match outcome {
         Outcome::AsShown if changed => observe_effect(evidence, transition, adds, deletes, hierarchy),
-        Outcome::AsShown => observe_failure(evidence, transition, &[&before.unknown, &after.unknown], hierarchy),
+        Outcome::AsShown => observe_failure(evidence, transition, after, hierarchy),
         Outcome::NotExecuted | Outcome::Undecided => {
             if changed {
-                evidence.add_unexplained(Unexplained::NotExecuted, transition.witness());
+                evidence.add_unexplained(Unexplained::NotExecuted, &transition.witness());
             }
-            observe_failure(evidence, transition, &[&before.unknown], hierarchy)
+            // Whatever is so afterwards, the action left everything as it was.
+            observe_failure(evidence, transition, before, hierarchy)
         }
     };
     if let Err(reason) = result {
-        evidence.add_unexplained(reason, transition.witness());
+        evidence.add_unexplained(reason, &transition.witness());
     }
 }
 
@@ -71,9 +73,7 @@ fn observe_effect(
     let (before, after) = (transition.before, transition.after);
     let others = adds.iter().chain(&deletes).flat_map(|atom| &atom.args);
     let entities = Entities::of(transition, others, hierarchy)?;
-    if [before, after].iter().any(|state| entities.concern(&state.unknown)) {
-        return Err(Unexplained::PartlyObserved);
-    }
+    let view = view([before, after], entities.index.keys().copied(), hierarchy, &mut evidence.open)?;
     let lift = |atoms: Vec<&GroundAtom>| atoms.into_iter().filter_map(|atom| entities.lift(atom)).collect();
     let effect = Effect { adds: lift(adds), deletes: lift(deletes), state: lift(before.atoms.iter().collect()) };
     let colours = entities
@@ -90,7 +90,8 @@ fn observe_effect(
         adds: lifted.adds,
         deletes: lifted.deletes,
     };
-    evidence.clusters.entry(key).or_default().add(lifted.state.into_iter().collect(), transition.witness());
+    let seen = evidence.seen_in(view);
+    seen.clusters.entry(key).or_default().add(lifted.state.into_iter().collect(), transition.witness());
     Ok(())
 }
 
@@ -99,18 +100,16 @@ fn observe_effect(
 fn observe_failure(
     evidence: &mut Observations,
     transition: &Transition<'_>,
-    unknown: &[&Unknown<Symbol>],
+    after: &State,
     hierarchy: &Hierarchy,
 ) -> Result<(), Unexplained> {
     let before = transition.before;
     let expected = transition.action.expected.iter().flat_map(|expected| &expected.args);
     let entities = Entities::of(transition, expected.filter(|name| before.objects.contains_key(*name)), hierarchy)?;
-    if unknown.iter().any(|unknown| entities.concern(unknown)) {
-        return Err(Unexplained::PartlyObserved);
-    }
+    let view = view([before, after], entities.index.keys().copied(), hierarchy, &mut evidence.open)?;
     let state = before.atoms.iter().filter_map(|atom| entities.lift(atom)).collect();
     let key = NegativeKey { action: transition.action.call.name.clone(), types: entities.types, call: entities.call };
-    evidence.negatives.entry(key).or_default().add(state, transition.witness());
+    evidence.seen_in(view).negatives.entry(key).or_default().add(state, transition.witness());
     Ok(())
 }
 
@@ -154,14 +153,6 @@ impl<'a> Entities<'a> {
     /// The atom over their numbers, if it is about them alone.
     fn lift(&self, atom: &GroundAtom) -> Option<LiftedAtom> {
         LiftedAtom::lift(atom, |object| self.index.get(object).copied())
-    }
-
-    /// Whether an atom about them alone may be among these.
-    fn concern(&self, unknown: &Unknown<Symbol>) -> bool {
-        match unknown {
-            Unknown::Matching(patterns) => patterns.iter().any(|p| p.names().all(|name| self.index.contains_key(name))),
-            Unknown::AllBut(_) => true,
-        }
     }
 }
 

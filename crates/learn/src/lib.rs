@@ -4,7 +4,7 @@
 //!
 //! | step                    | file             |
 //! |-------------------------|------------------|
-//! | `ClusterLiftedEffects`  | `cluster.rs`, and what a step is taken for, `outcome.rs` |
+//! | `ClusterLiftedEffects`  | `cluster.rs`, what a step is taken for, `outcome.rs`, and of which too much is hidden, `open.rs` |
 //! | `ExtractPreconditions`  | `precondition.rs`|
 //! | `CreateAction`          | `draft.rs`       |
 //! | `CreateGenPars`, `CreateGenAction` | `generalize.rs` |
@@ -28,6 +28,7 @@
 mod cluster;
 mod draft;
 mod generalize;
+mod open;
 mod outcome;
 mod precondition;
 mod predicates;
@@ -130,6 +131,7 @@ pub fn learn_evidence(
 /// # Errors
 /// [`LearnError::UnknownType`] if something observed or a declared actor names a type that `hierarchy` does not have.
 pub fn learn(hierarchy: &Hierarchy, observations: &Observations, options: &Options) -> Result<Learned, LearnError> {
+    let observations = &*observations.settled();
     let mut actions = Vec::with_capacity(observations.clusters.len());
     for (key, cluster) in &observations.clusters {
         let preconditions = precondition::extract_preconditions(cluster);

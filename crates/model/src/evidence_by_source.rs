@@ -98,8 +98,17 @@ impl Evidence {
         }
     }
 
-    /// The sum of all that was observed. In time of its size.
+    /// What is learned from: the sum of all that was observed, [settled](Observations::settled). In time of its size.
     pub fn total(&self) -> Cow<'_, Observations> {
+        match self.sum() {
+            Cow::Borrowed(sum) => sum.settled(),
+            Cow::Owned(sum) if sum.open.is_empty() => Cow::Owned(sum),
+            Cow::Owned(sum) => Cow::Owned(sum.settled().into_owned()),
+        }
+    }
+
+    /// The sum of all that was observed.
+    fn sum(&self) -> Cow<'_, Observations> {
         match self.parts().as_slice() {
             [] => Cow::default(),
             [(_, only)] => Cow::Borrowed(only),
@@ -143,7 +152,7 @@ impl Evidence {
         }
         self.compact();
         if let Observed::Total(total) = &mut self.observed {
-            total.merge(&other.total());
+            total.merge(&other.sum());
         }
         self.sources.extend(other.sources.clone());
         Ok(shared)
@@ -172,7 +181,7 @@ impl Evidence {
     /// any more, and only parts that share no source can be added.
     pub fn compact(&mut self) {
         if !self.is_compact() {
-            self.observed = Observed::Total(Box::new(self.total().into_owned()));
+            self.observed = Observed::Total(Box::new(self.sum().into_owned()));
         }
     }
 }

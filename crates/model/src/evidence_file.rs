@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde::{Deserialize, Serialize};
 
 use crate::model_error::{at_most, inconsistent, type_id};
+use crate::open_file::OpenFile;
 use crate::{
     Cluster, ClusterKey, Evidence, Hierarchy, MOST_PARAMETERS, ModelFileError, NegativeKey, Observations, PreStates,
     Source, SourceId, Symbol, Unexplained, Witness,
@@ -33,6 +34,9 @@ pub(crate) struct EvidenceFile {
     pub(crate) negatives: Vec<NegativeFile>,
     #[serde(default)]
     pub(crate) unexplained: Vec<UnexplainedFile>,
+    /// What was seen between open states.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) open: Vec<SeenFile<OpenFile>>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -142,7 +146,8 @@ fn by_key<'e, K: Ord + 'e, V: 'e, T>(
 }
 
 impl EvidenceFile {
-    pub(crate) fn of(evidence: &Evidence) -> Self {
+    /// `total` is what is learned from it; its clusters are those that actions refer to by number.
+    pub(crate) fn of(evidence: &Evidence, total: &Observations) -> Self {
         let parts: Vec<(Option<usize>, &Observations)> =
             (0..).zip(evidence.parts()).map(|(number, (id, part))| (id.map(|_| number), part)).collect();
         let source = |(id, source): (&SourceId, &Source)| SourceFile {
@@ -151,11 +156,16 @@ impl EvidenceFile {
             transitions: source.transitions,
         };
         let predicates = by_key(&parts, |part| &part.predicates, |types| TypesFile { types: types.clone() });
-        let clusters = by_key(&parts, |part| &part.clusters, Cluster::clone);
+        let mut clusters = by_key(&parts, |part| &part.clusters, Cluster::clone);
+        for key in total.clusters.keys() {
+            clusters.entry(key).or_default();
+        }
         let negatives = by_key(&parts, |part| &part.negatives, Cluster::clone);
         let places =
             |(count, witnesses): &(u64, BTreeSet<Witness>)| PlacesFile { count: *count, witnesses: witnesses.clone() };
         let unexplained = by_key(&parts, |part| &part.unexplained, places);
+        let open = parts.iter().filter(|(_, part)| !part.open.is_empty());
+        let open = open.map(|(source, part)| SeenFile { source: *source, what: OpenFile::of(&part.open) });
         Self {
             compact: evidence.is_compact(),
             transitions: parts.iter().map(|(_, part)| part.transitions).sum(),
@@ -167,6 +177,7 @@ impl EvidenceFile {
                 .into_iter()
                 .map(|(reason, seen)| UnexplainedFile { reason: *reason, seen })
                 .collect(),
+            open: open.collect(),
         }
     }
 
@@ -194,6 +205,14 @@ impl EvidenceFile {
             };
             parts.insert("what is unexplained", seen, insert)?;
         }
+        let mut open = Vec::with_capacity(self.open.len());
+        for SeenFile { source, what } in self.open {
+            open.push(SeenFile { source, what: what.read(hierarchy)? });
+        }
+        parts.insert("open states", open, |part, open| {
+            let known = std::mem::replace(&mut part.open, open);
+            (!known.is_empty()).then_some(known)
+        })?;
         parts.check(hierarchy)?;
         let mut ids = BTreeSet::new();
         if let Some(twice) = self.sources.iter().find(|source| !ids.insert(source.id)) {
@@ -296,6 +315,6 @@ impl Observations {
             }
             add(counts, &place)?;
         }
-        Ok(())
+        self.open.by_view.values().try_for_each(|seen| seen.check(hierarchy, total))
     }
 }

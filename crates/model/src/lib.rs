@@ -31,11 +31,13 @@ mod model_error;
 mod model_file;
 mod model_reader;
 mod observations;
+mod open_file;
 mod parse_config;
 mod pddl_names;
 mod plan;
 mod printable;
 mod provenance;
+mod settled;
 mod similar;
 mod source;
 mod split_mix;
@@ -47,6 +49,7 @@ mod task;
 pub mod testing;
 mod unify;
 mod unknown;
+mod view;
 
 pub use action::{ActionSchema, Cost, Effect, GroundCall, LiftedCall, Literal, Parameter};
 pub use action_model::{ActionModel, ModelPddlNames, UniqueNames, describe_replacements, schema_name};
@@ -65,8 +68,8 @@ pub use matching::{Place, bind_places};
 pub use model_error::{MODEL_FORMAT, ModelFileError};
 pub use model_reader::MOST_PRECONDITIONS;
 pub use observations::{
-    Cluster, ClusterKey, MOST_PARAMETERS, NegativeKey, Observations, PRE_STATE_BOUND, PreStates, Unexplained,
-    WITNESS_BOUND, Witness,
+    Cluster, ClusterKey, MOST_PARAMETERS, NegativeKey, Observations, OpenObservations, PRE_STATE_BOUND, PreStates,
+    Unexplained, WITNESS_BOUND, Witness,
 };
 pub use parse_config::ParseConfig;
 pub use pddl_names::{NameCollision, PddlNames};
@@ -82,6 +85,7 @@ pub use symbol::{Symbol, SymbolPool};
 pub use task::Task;
 pub use unify::{effect_bijections, is_bijection};
 pub use unknown::{Pattern, Slot, Unknown};
+pub use view::{AtomKind, View};
 
 /// The hash map of all crates: fast, and never iterated into a result.
 pub type HashMap<K, V> = rustc_hash::FxHashMap<K, V>;

@@ -192,7 +192,7 @@ impl LearnedModel {
             constants: model.constants.iter().map(|(n, ty)| (n.clone(), model.hierarchy.name(*ty).clone())).collect(),
             axioms: model.axioms.iter().map(|a| write_axiom(a, &model.hierarchy)).collect(),
             actions: model.actions.iter().map(|a| write_action(a, &model.hierarchy, &clusters)).collect(),
-            evidence: EvidenceFile::of(&self.evidence),
+            evidence: EvidenceFile::of(&self.evidence, &total),
             pddl: PddlFile {
                 types: map(&names.types),
                 predicates: map(&names.predicates),

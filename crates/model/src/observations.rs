@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 
-use crate::{LiftedAtom, Symbol};
+use crate::{AtomKind, LiftedAtom, Symbol, View};
 
 /// Different pre-states that one cluster keeps apart; beyond it only how often each atom held.
 pub const PRE_STATE_BOUND: usize = 256;
@@ -111,6 +111,15 @@ impl PreStates {
                 (states.values().sum(), atoms)
             }
         }
+    }
+
+    /// The atoms that held in any pre-state, some of them several times.
+    pub fn atoms(&self) -> impl Iterator<Item = &LiftedAtom> {
+        let (exact, counted) = match self {
+            Self::Exact(states) => (Some(states.keys().flatten()), None),
+            Self::Counted { atoms, .. } => (None, Some(atoms.keys())),
+        };
+        exact.into_iter().flatten().chain(counted.into_iter().flatten())
     }
 
     /// The atoms that held in every pre-state.
@@ -246,8 +255,10 @@ pub struct NegativeKey {
 pub enum Unexplained {
     /// Entities appeared or vanished.
     ObjectsChanged,
-    /// An atom over the transition's entities is unknown.
+    /// An atom that it may have changed is unknown before or after.
     PartlyObserved,
+    /// It lies between open states that do not list a kind of atoms that is met elsewhere: it may have changed such atoms.
+    UnlistedKinds,
     /// More entities take part than [`MOST_PARAMETERS`].
     TooLarge,
     /// More entities of the effect than can be told apart within bounds.
@@ -271,9 +282,41 @@ pub struct Observations {
     pub negatives: BTreeMap<NegativeKey, Cluster>,
     /// Transitions that nothing explains.
     pub unexplained: BTreeMap<Unexplained, (u64, BTreeSet<Witness>)>,
+    /// Transitions between open states of which nothing that they list is hidden.
+    pub open: OpenObservations,
+}
+
+/// What was observed between open states.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct OpenObservations {
+    /// Every kind of atom that an open state lists, as true or as false.
+    pub kinds: BTreeSet<AtomKind>,
+    /// The clusters and the failures of steps, by how much is known of them.
+    pub by_view: BTreeMap<View, Observations>,
+}
+
+impl OpenObservations {
+    pub(crate) fn is_empty(&self) -> bool {
+        self.kinds.is_empty() && self.by_view.is_empty()
+    }
+
+    pub(crate) fn merge(&mut self, other: &Self) {
+        self.kinds.extend(other.kinds.iter().cloned());
+        for (view, seen) in &other.by_view {
+            self.by_view.entry(view.clone()).or_default().merge(seen);
+        }
+    }
 }
 
 impl Observations {
+    /// Where a step belongs of which so much is known; `None` if everything is.
+    pub fn seen_in(&mut self, view: Option<View>) -> &mut Self {
+        match view {
+            None => self,
+            Some(view) => self.open.by_view.entry(view).or_default(),
+        }
+    }
+
     /// Adds an atom that was met: its predicate, and the types of its objects as far as they are named.
     pub fn add_predicate<'a>(&mut self, predicate: &Symbol, types: impl IntoIterator<Item = Option<&'a Symbol>>) {
         if !self.predicates.contains_key(predicate) {
@@ -293,10 +336,20 @@ impl Observations {
     }
 
     /// Adds a transition that nothing explains.
-    pub fn add_unexplained(&mut self, reason: Unexplained, witness: Witness) {
+    pub fn add_unexplained(&mut self, reason: Unexplained, witness: &Witness) {
+        self.add_all_unexplained(reason, 1, [witness]);
+    }
+
+    /// Adds `count` transitions that nothing explains, some of which were seen at these places.
+    pub(crate) fn add_all_unexplained<'a>(
+        &mut self,
+        reason: Unexplained,
+        count: u64,
+        witnesses: impl IntoIterator<Item = &'a Witness>,
+    ) {
         let entry = self.unexplained.entry(reason).or_default();
-        entry.0 += 1;
-        keep_smallest(&mut entry.1, [witness]);
+        entry.0 += count;
+        keep_smallest(&mut entry.1, witnesses.into_iter().cloned());
     }
 
     /// Adds everything that another holds.
@@ -314,10 +367,9 @@ impl Observations {
             self.negatives.entry(key.clone()).or_default().merge(cluster);
         }
         for (reason, (count, witnesses)) in &other.unexplained {
-            let entry = self.unexplained.entry(*reason).or_default();
-            entry.0 += count;
-            keep_smallest(&mut entry.1, witnesses.iter().cloned());
+            self.add_all_unexplained(*reason, *count, witnesses);
         }
+        self.open.merge(&other.open);
     }
 
     /// The same, observed in a file of this name.
@@ -328,6 +380,7 @@ impl Observations {
             let steps = std::mem::take(witnesses).into_iter().map(|witness| witness.step);
             witnesses.extend(steps.map(|step| Witness { file: file.clone(), step }));
         }
+        renamed.open.by_view.values_mut().for_each(|seen| *seen = seen.renamed(file));
         renamed
     }
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use typelift_model::{GroundAtom, GroundCall, Hierarchy, ParseConfig, SourceId, State, Symbol, Witness};
+use typelift_model::{GroundAtom, GroundCall, Hierarchy, ParseConfig, SourceId, State, Symbol, Unknown, Witness};
 
 use crate::{Expected, FileError, Parser, Verdict};
 
@@ -174,6 +174,12 @@ impl Dataset {
             traces: once,
             repeated,
         }
+    }
+
+    /// Whether some state lists what it knows, and all else is unknown.
+    pub fn has_open_states(&self) -> bool {
+        let mut states = self.traces.iter().flat_map(|trace| &trace.states);
+        states.any(|state| matches!(state.unknown, Unknown::AllBut(_)))
     }
 
     /// All transitions of all traces.

@@ -58,6 +58,81 @@ fn failures_speak_against_merging() {
     insta::assert_snapshot!("show-failures", folder.run("show m.json"));
 }
 
+/// Picking up a block and putting it down, with something more said of the states after.
+fn trajectory(picked: &str, dropped: &str) -> String {
+    format!(
+        "((:init (table a) (table b) (free) (not (held a)) (not (held b)))\n(operator: (pick a))\n\
+         (:state (held a) (not (free)) (not (held b)) {picked})\n(operator: (drop a))\n\
+         (:state (table a) (free) (not (held a)) (not (held b)) {dropped}))\n"
+    )
+}
+
+#[test]
+fn what_is_not_listed_is_not_taken_for_false() {
+    let folder = Folder::new();
+    folder.write("types.json", r#"{"block": "thing"}"#);
+    folder.write("objects.json", r#"{"a": "block", "b": "block"}"#);
+    let learn = "--types types.json --objects objects.json -o";
+    folder.write("whole.trajectory", trajectory("(not (table a)) (table b)", "(table b)"));
+    // Whether `a` is still on the table when it is held is not said.
+    folder.write("part.trajectory", trajectory("(table b)", "(table b)"));
+    insta::assert_snapshot!("learn-part", folder.run(&format!("learn part.trajectory {learn} part.json")));
+    // What is not said of `b` does not matter.
+    folder.write("elsewhere.trajectory", trajectory("(not (table a))", ""));
+    folder.write("closed.trajectory", without_negations(&trajectory("(table b)", "(table b)")));
+    let shown = [("whole", ""), ("elsewhere", ""), ("part", "--closed"), ("closed", "")].map(|(name, option)| {
+        folder.run(&format!("learn {name}.trajectory {learn} m.json -q {option}")).succeeds();
+        folder.run("show m.json").out
+    });
+    assert!(shown.iter().all(|other| *other == shown[0]), "{shown:#?}");
+    insta::assert_snapshot!("learn-whole", shown[0]);
+    // Without a single negation nothing is known to have changed.
+    insta::assert_snapshot!("learn-open", folder.run(&format!("learn closed.trajectory --open {learn} open.json")));
+    // Another trace lists a kind of atoms that this one does not list, and that the actions may change.
+    let marked = "(marked b) (not (marked a)) (table a) (table b) (free) (not (held a)) (not (held b))";
+    folder.write("marked.trajectory", format!("((:init {marked})\n(operator: (look b))\n(:state {marked}))\n"));
+    insta::assert_snapshot!(
+        "learn-unlisted",
+        folder.run(&format!("learn whole.trajectory marked.trajectory {learn} unlisted.json"))
+    );
+    folder.run("learn --into unlisted.json --forget marked.trajectory -q").succeeds();
+    folder.run(&format!("learn whole.trajectory {learn} m.json -q")).succeeds();
+    assert_eq!(folder.read("unlisted.json"), folder.read("m.json"));
+}
+
+fn without_negations(trajectory: &str) -> String {
+    let mut text = trajectory.to_owned();
+    while let Some(start) = text.find("(not ") {
+        let end = start + text[start..].find("))").expect("it is closed") + 2;
+        text.replace_range(start..end, "");
+    }
+    text
+}
+
+#[test]
+fn what_a_state_calls_unknown_is_not_taken_for_false() {
+    let folder = Folder::new();
+    folder.write("types.json", r#"{"block": "thing", "hand": "thing"}"#);
+    let trace = |unknown: &str| {
+        let state = |atoms: &str, unknown: &str| {
+            let objects = r#"{"a":"block","b":"block","h":"hand","g":"hand"}"#;
+            format!(r#"{{"state":{{"objects":{objects},"atoms":[{atoms}],"unknown":[{unknown}]}}}}"#)
+        };
+        let (before, after) = (state(r#""free(h)","free(g)""#, ""), state(r#""held(h,a)","free(g)""#, unknown));
+        let action = r#"{"action":{"name":"PICK","args":["h","a"]}}"#;
+        format!("{{\"format\":\"trace/1\"}}\n{before}\n{action}\n{after}\n")
+    };
+    folder.write("known.jsonl", trace(""));
+    folder.write("elsewhere.jsonl", trace(r#""held(g,b)""#));
+    folder.write("near.jsonl", trace(r#""held(h,*)""#));
+    let show = |name: &str| {
+        folder.run(&format!("learn {name}.jsonl --types types.json -o m.json -q")).succeeds();
+        folder.run("show m.json").out
+    };
+    assert_eq!(show("elsewhere"), show("known"));
+    insta::assert_snapshot!("learn-near", folder.run("learn near.jsonl --types types.json -o m.json"));
+}
+
 #[test]
 fn showing_a_model() {
     let folder = Folder::kitchen();
