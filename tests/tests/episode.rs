@@ -5,13 +5,14 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 use typelift::agent::{
     Account, Command, CommandId, Ending, Episode, EpisodeError, Event, Experience, Input, Objection, Options,
-    StepResult, Suspect, WireCommand,
+    StepResult, Suspect,
 };
 use typelift::learn::{evidence_of, learn};
 use typelift::model::{
     ActionModel, Budget, GoalError, GroundAtom, GroundCall, Hierarchy, ParseConfig, Plan, State, Symbol,
 };
 use typelift::plan::{self, Exclusion};
+use typelift::words::{WireCommand, wire_command};
 use typelift::world::{Dataset, Parser, Scene, Trace, TraceAction, Verdict};
 
 fn failed_calls(account: &Account) -> Vec<String> {
@@ -433,12 +434,12 @@ fn commands_and_inputs_go_over_a_wire() {
     let mut it = ByHand::asked(Options::default());
     let hierarchy = saws().0.hierarchy.clone();
     let wire = |command: &Command| {
-        let command = command.to_wire(&hierarchy);
+        let command = wire_command(command.clone(), &hierarchy);
         let text = serde_json::to_string(&command).expect("JSON");
         assert_eq!(serde_json::from_str::<WireCommand>(&text).expect("a command"), command);
         text
     };
-    let plan = r#"{"steps":[{"action":"cut-saw-piece","call":{"name":"cut","args":["saw_1","b"]}}]}"#;
+    let plan = r#"{"cost":1,"steps":[{"action":"cut-saw-piece","name":"cut","args":["saw_1","b"]}]}"#;
     assert_eq!(wire(&it.command), format!(r#"{{"command":"propose","id":2,"plan":{plan}}}"#));
     let mut parser = it.parser.clone();
     let mut read = |text: &str| {

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use typelift::agent::{Experience, propose};
 use typelift::learn::learn_dataset;
 use typelift::model::Budget;
-use typelift::words::AnswerView;
+use typelift::words::{AnswerView, wire_event};
 use typelift_kitchen::{demonstrations, faults};
 use typelift_tests::schema::Schema;
 use typelift_tests::{Watched, approve, dataset_of, kitchen_model, paper_options, planning_task, run_in};
@@ -40,7 +40,12 @@ fn answers_and_events() {
         assert_eq!(Schema::named("answer").check(&json!(answer)), Ok(()), "{}", fault.name);
         let ran = run_in(&mut Watched::new(), &model, &fault, 0, &options, Experience::new(), &mut approve);
         for event in ran.events {
-            assert_eq!(Schema::named("event").check(&json!(event)), Ok(()), "{}", fault.name);
+            assert_eq!(
+                Schema::named("event").check(&json!(wire_event(&event, &model.hierarchy))),
+                Ok(()),
+                "{}",
+                fault.name
+            );
         }
     }
 }

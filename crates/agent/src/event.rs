@@ -1,51 +1,18 @@
 //! What happens during an episode, for whoever watches.
 
-use serde::{Deserialize, Serialize};
-use typelift_model::{GroundAtom, GroundCall, Hierarchy, Plan, Symbol, describe_replacements};
+use serde::Serialize;
+use typelift_model::{GroundAtom, GroundCall, Plan, Symbol};
 use typelift_world::Record;
 
 use crate::blame::Suspect;
 use crate::monitor::StepResult;
 use crate::resort::Resort;
 
-/// One step of a plan, in plain words.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct StepSummary {
-    /// The action schema.
-    pub action: Symbol,
-    /// What the environment is told.
-    pub call: GroundCall,
-    /// What was put in place of what, if the step is imagined.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub imagined: Option<String>,
-}
-
-/// A plan, in plain words.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct PlanSummary {
-    /// The steps.
-    pub steps: Vec<StepSummary>,
-}
-
-impl PlanSummary {
-    /// The summary of a plan over a hierarchy.
-    pub fn of(plan: &Plan, hierarchy: &Hierarchy) -> Self {
-        let steps = plan.steps.iter().map(|step| StepSummary {
-            action: step.action.clone(),
-            call: step.call.clone(),
-            imagined: step.imagined.as_ref().map(|i| describe_replacements(&i.replaced, hierarchy)),
-        });
-        Self { steps: steps.collect() }
-    }
-}
-
-/// Something that happened.
+/// Something that happened. `P` is how plans are told: programs outside are given a view of them.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(tag = "event", rename_all = "snake_case")]
-pub enum Event {
+pub enum Event<P = Plan> {
     /// Planning begins.
     PlanningStarted {
         /// The number of the proposal it may lead to, from 1.
@@ -67,7 +34,7 @@ pub enum Event {
         /// Its number, from 1.
         proposal: u64,
         /// The plan.
-        plan: PlanSummary,
+        plan: P,
     },
     /// A step was executed, or rejected.
     Stepped {
@@ -124,6 +91,28 @@ pub enum Event {
         /// Whether the goal was seen to hold.
         solved: bool,
     },
+}
+
+impl<P: Clone> Event<P> {
+    /// The same with its plan told as `tell` does.
+    pub fn map_plan<Q>(&self, tell: impl FnOnce(&P) -> Q) -> Event<Q> {
+        match self.clone() {
+            Self::PlanningStarted { proposal } => Event::PlanningStarted { proposal },
+            Self::PlanningEnded { expansions, ground_actions, imagined, found } => {
+                Event::PlanningEnded { expansions, ground_actions, imagined, found }
+            }
+            Self::Proposed { proposal, plan } => Event::Proposed { proposal, plan: tell(&plan) },
+            Self::Stepped { proposal, step, call, imagined, result, reason, added, deleted } => {
+                Event::Stepped { proposal, step, call, imagined, result, reason, added, deleted }
+            }
+            Self::Retried { call } => Event::Retried { call },
+            Self::Excluded { suspect, reason } => Event::Excluded { suspect, reason },
+            Self::Drifted { step, missing } => Event::Drifted { step, missing },
+            Self::LastResort { resort } => Event::LastResort { resort },
+            Self::NoOtherPlan { proposal } => Event::NoOtherPlan { proposal },
+            Self::Ended { solved } => Event::Ended { solved },
+        }
+    }
 }
 
 /// Watches an episode.

@@ -8,7 +8,7 @@ use typelift_plan::Outcome;
 use crate::account::Ending;
 use crate::blame::with_conditions;
 use crate::episode::{Episode, EpisodeError, Phase};
-use crate::event::{Event, Observer, PlanSummary};
+use crate::event::{Event, Observer};
 use crate::execution::{Execution, Terms, steps};
 use crate::options::Options;
 use crate::propose::{Proposal, ProposeError, propose, widened};
@@ -67,8 +67,7 @@ impl Episode {
         observer: &mut dyn Observer,
     ) -> Command {
         self.account.proposals += 1;
-        let summary = PlanSummary::of(&plan, &self.model.hierarchy);
-        observer.event(&Event::Proposed { proposal: self.account.proposals, plan: summary });
+        observer.event(&Event::Proposed { proposal: self.account.proposals, plan: plan.clone() });
         self.execution = Some(Execution {
             plan,
             model: Arc::clone(&proposal.model),

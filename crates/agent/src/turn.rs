@@ -31,9 +31,11 @@ impl fmt::Display for CommandId {
     }
 }
 
-/// What the driver is to do.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Command {
+/// What the driver is to do. `P` is how plans are told, `A` how the account is: programs outside are given views of them.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(tag = "command", rename_all = "snake_case")]
+pub enum Command<P = Plan, A = Box<Account>> {
     /// Set the world to its initial state; answer with [`Input::Reset`].
     Reset {
         /// The answer names it.
@@ -49,7 +51,7 @@ pub enum Command {
         /// The answer names it.
         id: CommandId,
         /// The plan.
-        plan: Plan,
+        plan: P,
     },
     /// Execute this; answer with an observation, a refusal or a time-out.
     Act {
@@ -67,7 +69,21 @@ pub enum Command {
         call: GroundCall,
     },
     /// It is over.
-    Done(Box<Account>),
+    Done(A),
+}
+
+impl<P, A> Command<P, A> {
+    /// The same with plan and account told as these do.
+    pub fn map<Q, B>(self, tell_plan: impl FnOnce(P) -> Q, tell_account: impl FnOnce(A) -> B) -> Command<Q, B> {
+        match self {
+            Self::Reset { id } => Command::Reset { id },
+            Self::Observe { id } => Command::Observe { id },
+            Self::Propose { id, plan } => Command::Propose { id, plan: tell_plan(plan) },
+            Self::Act { id, call } => Command::Act { id, call },
+            Self::Await { id, call } => Command::Await { id, call },
+            Self::Done(account) => Command::Done(tell_account(account)),
+        }
+    }
 }
 
 /// What the driver reports. `S` is how it tells states: as a [`Scene`] on the wire.

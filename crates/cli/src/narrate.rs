@@ -5,7 +5,8 @@ use std::io::{BufWriter, Write};
 use std::time::{Duration, Instant};
 
 use typelift::agent::{Event, Observer};
-use typelift::words::line;
+use typelift::model::Hierarchy;
+use typelift::words::{line, wire_event};
 
 use crate::style::painted;
 
@@ -16,6 +17,8 @@ pub(crate) struct Narrator {
     pub(crate) aloud: bool,
     /// Where events are written, one JSON object a line.
     events: Option<BufWriter<File>>,
+    /// The types of the model that is acted with.
+    pub(crate) hierarchy: Hierarchy,
     /// Why events could not be written.
     pub(crate) events_error: Option<std::io::Error>,
     /// The time spent planning.
@@ -39,7 +42,7 @@ impl Observer for Narrator {
             _ => {}
         }
         if let Some(file) = &mut self.events {
-            let written = serde_json::to_writer(&mut *file, event).map_err(Into::into);
+            let written = serde_json::to_writer(&mut *file, &wire_event(event, &self.hierarchy)).map_err(Into::into);
             if let Err(error) = written.and_then(|()| writeln!(file)).and_then(|()| file.flush()) {
                 self.events_error.get_or_insert(error);
             }

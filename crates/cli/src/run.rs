@@ -147,6 +147,7 @@ impl Run {
                 anstream::eprintln!("{HEAD}{name}{HEAD:#}");
             }
             narrator.planning = Duration::ZERO;
+            narrator.hierarchy = model.hierarchy.clone();
             let budget = self.planning.limits.budget(clock, &interrupt, Some(EXPANSIONS));
             let mut episode =
                 Episode::new(Arc::clone(&model), task.goal.clone(), options.clone(), experience.clone(), budget)

@@ -2,9 +2,9 @@
 
 use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema};
-use typelift_agent::{Episode, Event, Input, WireCommand};
+use typelift_agent::{Episode, Input};
 use typelift_model::LearnedModel;
-use typelift_words::{AccountView, AnswerView};
+use typelift_words::{AccountView, AnswerView, WireCommand, WireEvent};
 use typelift_world::{Answer, Request, Scene, TaskFile, TraceLine};
 
 /// Each schema, by the name that its file has. A trace is described by the schema of one of its lines.
@@ -15,7 +15,7 @@ pub fn schemas() -> [(&'static str, serde_json::Value); 11] {
         ("model", schema::<LearnedModel>("A model, format model/2")),
         ("answer", schema::<AnswerView>("The answer to a planning question, as `plan --json` prints it")),
         ("account", schema::<AccountView>("The account of a task, as `run --json` prints it")),
-        ("event", schema::<Event>("Something that happens during an episode, a line of `run --events`")),
+        ("event", schema::<WireEvent>("Something that happens during an episode, a line of `run --events`")),
         ("env-request", schema::<Request>("A request to an environment, protocol env/1")),
         ("env-answer", schema::<Answer>("An environment's answer, protocol env/1")),
         ("episode", schema::<Episode>("A saved episode, format episode/1")),

@@ -1,4 +1,4 @@
-//! What happens during an episode, a line each. As data, an [`Event`] is its own wire type.
+//! What happens during an episode, a line each.
 
 use typelift_agent::{Event, StepResult};
 use typelift_world::Verdict;
@@ -13,9 +13,8 @@ pub fn line(event: &Event) -> Option<Text> {
     Some(match event {
         Event::PlanningStarted { .. } | Event::PlanningEnded { .. } | Event::Ended { .. } => return None,
         Event::Proposed { proposal, plan } => {
-            let imagined = plan.steps.iter().filter(|step| step.imagined.is_some()).count() as u64;
-            let steps = count(plan.steps.len() as u64, "step");
-            Text::new().plain(format!("  proposal {proposal}: {steps}{}", imagined_part(imagined)))
+            let (steps, imagined) = (count(plan.len() as u64, "step"), imagined_part(plan.imagined_steps() as u64));
+            Text::new().plain(format!("  proposal {proposal}: {steps}{imagined}"))
         }
         Event::Stepped { step, call, imagined, result, reason, .. } => {
             let mut line = Text::new().plain(format!("  {step:>3}  {call}"));

@@ -12,6 +12,7 @@
 //! | `action.rs`      | actions and axioms of a model                           |
 //! | `account.rs`     | how an episode went                                     |
 //! | `event.rs`       | what happens during an episode                          |
+//! | `wire.rs`        | commands and events for programs outside                |
 #![deny(missing_docs)]
 
 mod account;
@@ -20,6 +21,7 @@ mod answer;
 mod event;
 mod plan;
 mod text;
+mod wire;
 
 pub use account::{AccountView, BrokenOffView, ExclusionView, FailureView, summary};
 pub use action::{Description, Row, describe_action, describe_axiom, individual_name};
@@ -27,3 +29,4 @@ pub use answer::{AnswerView, ending, why_none};
 pub use event::line;
 pub use plan::{PlanView, StepView, imagined_note, numbered_steps, plan_size};
 pub use text::{Role, Span, Text, count};
+pub use wire::{DoneView, WireCommand, WireEvent, wire_command, wire_event};

@@ -1,12 +1,12 @@
 //! Plans: what each step does, what an imagined one rests on, how long the plan is.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use typelift_model::{Hierarchy, Plan, Step, Symbol, describe_replacements};
 
 use crate::text::{Role, Text, count};
 
 /// A step of a plan.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct StepView {
     /// The name of the action in the model.
@@ -16,7 +16,7 @@ pub struct StepView {
     /// Its arguments.
     pub args: Vec<Symbol>,
     /// What the step rests on, if it is imagined.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub imagined: Option<String>,
 }
 
@@ -33,7 +33,7 @@ impl StepView {
 }
 
 /// A plan.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PlanView {
     /// The sum of the steps' costs; the number of steps where each costs 1.
