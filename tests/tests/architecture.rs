@@ -155,9 +155,9 @@ fn libraries_deny_missing_docs() {
 /// The modules of `plan`, from the bottom up: each may import those before it, none after it.
 #[rustfmt::skip]
 const ORDER_IN_PLAN: &[&str] = &[
-    "alike", "assignment", "fact", "lists", "outcome", "poll", "report", "restrict", "shuffle",
+    "alike", "assignment", "fact", "packed_lists", "outcome", "poll", "report", "restrictions", "shuffle",
     "op", "axioms", "pattern", "scope", "reach", "distinct", "ground", "fdr",
-    "emit", "explain", "external", "relaxation", "restricted", "symmetry",
+    "instantiate", "explain", "external", "relaxation", "restriction_literals", "symmetry",
     "landmark", "heuristic", "search", "lama", "strategy", "options", "stages", "level", "widening", "planner",
 ];
 

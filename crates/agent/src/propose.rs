@@ -50,7 +50,7 @@ impl Proposal {
     pub fn explain(&self) -> Explanation {
         match &self.searched {
             Searched::Own(planner) => planner.explain(),
-            Searched::External(_) => Explanation::Told,
+            Searched::External(_) => Explanation::ToldByPlanner,
         }
     }
 

@@ -12,7 +12,7 @@ use crate::reach::Reachable;
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
-pub enum Misfit {
+pub enum Obstacle {
     /// An object has a type that the action does not take.
     Type {
         /// The object.
@@ -37,13 +37,13 @@ pub enum Misfit {
         /// The type.
         ty: Symbol,
     },
-    /// What fits was tried, and may not be tried again.
+    /// Every ground action that would do was tried, and may not be tried again.
     Banned,
     /// A precondition cannot be reached; parameters that the atom leaves open are written by their type.
     Precondition(String),
 }
 
-impl fmt::Display for Misfit {
+impl fmt::Display for Obstacle {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Type { object, found, expected } => write!(f, "{object} is of type {found}, not {expected}"),
@@ -63,7 +63,7 @@ pub struct Nearest {
     /// Its name.
     pub action: Symbol,
     /// What is missing; empty if only no choice of objects satisfies all preconditions at once.
-    pub misfits: Vec<Misfit>,
+    pub obstacles: Vec<Obstacle>,
 }
 
 /// A goal atom that cannot be reached even if nothing is ever deleted.
@@ -92,8 +92,8 @@ pub enum Explanation {
         /// The other.
         other: GroundAtom,
     },
-    /// Somebody else's planner says so, and no more.
-    Told,
+    /// Another planner says so, and no more.
+    ToldByPlanner,
     /// These atoms must not hold in the end, but do from the start, and no action deletes them.
     NeverDeleted(Vec<GroundAtom>),
     /// Each goal atom can be reached, but not all together; where the search came closest, these were missing.
@@ -115,12 +115,12 @@ impl fmt::Display for Explanation {
                     match &goal.nearest {
                         None if goal.derived => f.write_str("it follows from nothing that can be reached")?,
                         None => write!(f, "no action adds {}", goal.atom.predicate)?,
-                        Some(nearest) if nearest.misfits.is_empty() => {
+                        Some(nearest) if nearest.obstacles.is_empty() => {
                             write!(f, "no choice of objects satisfies all preconditions of {}", nearest.action)?;
                         }
                         Some(nearest) => {
-                            let misfits: Vec<String> = nearest.misfits.iter().map(ToString::to_string).collect();
-                            write!(f, "the nearest action is {}, but {}", nearest.action, misfits.join(", and "))?;
+                            let obstacles: Vec<String> = nearest.obstacles.iter().map(ToString::to_string).collect();
+                            write!(f, "the nearest action is {}, but {}", nearest.action, obstacles.join(", and "))?;
                         }
                     }
                 }
@@ -129,7 +129,7 @@ impl fmt::Display for Explanation {
             Self::Exclusive { one, other } => {
                 write!(f, "{one} and {other} cannot hold together: whatever achieves the one deletes the other")
             }
-            Self::Told => f.write_str("the planner says that there is none"),
+            Self::ToldByPlanner => f.write_str("the planner says that there is none"),
             Self::NeverDeleted(atoms) => {
                 let lines: Vec<String> = atoms
                     .iter()
@@ -161,8 +161,8 @@ pub(crate) fn unreachable(
 ) -> Vec<UnreachableGoal> {
     let context = Context { model, task, restrictions, reached: reachable.atoms_by_predicate() };
     let nearest = |atom: &GroundAtom| {
-        let adding = model.adding(atom).map(|(schema, binding)| context.misfits(schema, &binding));
-        adding.min_by_key(|nearest| nearest.misfits.len())
+        let adding = model.adding(atom).map(|(schema, binding)| context.obstacles(schema, &binding));
+        adding.min_by_key(|nearest| nearest.obstacles.len())
     };
     reachable
         .unreached_goals()
@@ -185,9 +185,9 @@ struct Context<'a> {
 
 impl Context<'_> {
     /// What keeps `schema` from adding an atom that puts these objects in the place of its parameters.
-    fn misfits(&self, schema: &ActionSchema, binding: &[Option<&Symbol>]) -> Nearest {
+    fn obstacles(&self, schema: &ActionSchema, binding: &[Option<&Symbol>]) -> Nearest {
         let hierarchy = &self.model.hierarchy;
-        let mut misfits = Vec::new();
+        let mut obstacles = Vec::new();
         for (index, (parameter, object)) in schema.parameters.iter().zip(binding).enumerate() {
             let Some(object) = object else {
                 let usable = |(name, ty): (&Symbol, &TypeId)| {
@@ -196,31 +196,31 @@ impl Context<'_> {
                         && self.allows_type(schema, index, *ty)
                 };
                 if !self.task.init.objects.iter().any(usable) {
-                    misfits.push(Misfit::NoObject { ty: hierarchy.name(parameter.ty).clone() });
+                    obstacles.push(Obstacle::NoObject { ty: hierarchy.name(parameter.ty).clone() });
                 }
                 continue;
             };
             let Some(&ty) = self.task.init.objects.get(*object) else {
-                misfits.push(Misfit::Missing { object: (*object).clone() });
+                obstacles.push(Obstacle::Missing { object: (*object).clone() });
                 continue;
             };
             if !hierarchy.is_a(ty, parameter.ty) {
                 let (found, expected) = (hierarchy.name(ty).clone(), hierarchy.name(parameter.ty).clone());
-                misfits.push(Misfit::Type { object: (*object).clone(), found, expected });
+                obstacles.push(Obstacle::Type { object: (*object).clone(), found, expected });
             } else if !self.restrictions.allows(object, &schema.call.name) || !self.allows_type(schema, index, ty) {
-                misfits.push(Misfit::Excluded { object: (*object).clone() });
+                obstacles.push(Obstacle::Excluded { object: (*object).clone() });
             }
         }
-        if misfits.is_empty() {
+        if obstacles.is_empty() {
             let missing = schema.positive_preconditions().find(|pre| !self.reachable_somehow(schema, pre, binding));
-            misfits.extend(missing.map(|pre| Misfit::Precondition(written(schema, pre, binding, self.model))));
+            obstacles.extend(missing.map(|pre| Obstacle::Precondition(written(schema, pre, binding, self.model))));
         }
         let is_banned = || self.restrictions.banned.iter().any(|ban| ban.call.name == schema.call.name);
         let may_not_meet = || self.restrictions.types.iter().any(|exclusion| exclusion.concerns(schema));
-        if misfits.is_empty() && (is_banned() || may_not_meet()) {
-            misfits.push(Misfit::Banned);
+        if obstacles.is_empty() && (is_banned() || may_not_meet()) {
+            obstacles.push(Obstacle::Banned);
         }
-        Nearest { action: schema.name.clone(), misfits }
+        Nearest { action: schema.name.clone(), obstacles }
     }
 
     /// Whether an object of this type may be this parameter, whatever the others are.

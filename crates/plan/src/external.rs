@@ -1,4 +1,4 @@
-//! Somebody else's planner in the place of ours.
+//! Another planner in the place of ours.
 
 use std::fmt::Debug;
 use std::process::ExitStatus;
@@ -10,14 +10,14 @@ use crate::outcome::Outcome;
 
 /// A planner that is asked instead of [`Planner`](crate::Planner).
 pub trait ExternalPlanner: Debug + Send + Sync {
-    /// Plans a task. Whoever asks has the plan checked.
+    /// Plans a task. The caller must check the plan.
     ///
     /// # Errors
     /// [`ExternalFailure`] if there is no answer, or none that can be read.
     fn plan(&self, model: &ActionModel, task: &Task, budget: &Budget) -> Result<Outcome, ExternalFailure>;
 }
 
-/// Why somebody else's planner gave no usable answer.
+/// Why another planner gave no usable answer.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum ExternalFailure {
     /// The task could not be put to it.
@@ -44,7 +44,7 @@ pub enum ExternalFailure {
         /// The last lines that it printed.
         last_words: Vec<String>,
     },
-    /// It left something that is no plan of the model's actions.
+    /// Its plan is not made of the model's actions.
     #[error("the plan of {program} cannot be used: {defect}")]
     UnusablePlan {
         /// The program.
@@ -54,7 +54,7 @@ pub enum ExternalFailure {
     },
 }
 
-/// Why a plan that somebody else's planner left is none.
+/// Why the plan of another planner cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum PlanDefect {
     /// It cannot be read.
@@ -63,7 +63,7 @@ pub enum PlanDefect {
         /// Why not.
         reason: String,
     },
-    /// A step is none of the model.
+    /// A step is not an action of the model.
     #[error("step {step}: {defect}")]
     Step {
         /// Which, from 1.
@@ -73,7 +73,7 @@ pub enum PlanDefect {
     },
 }
 
-/// Why a step that somebody else's planner wrote is none.
+/// Why a step that another planner wrote cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum StepDefect {
     /// It has a name that the planner was not told.

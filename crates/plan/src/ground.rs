@@ -105,7 +105,7 @@ fn schema_ranks(model: &ActionModel, order: TieOrder) -> Vec<usize> {
     rank
 }
 
-/// Drops what can never matter: deletes and negative conditions on facts that are never reached, effects whose
+/// Drops parts that can never matter: deletes and negative conditions on facts that are never reached, effects whose
 /// condition never is.
 fn resolve(raw: RawOp, objects: Vec<Symbol>, cost: u32, facts: &Facts, touches_goal: bool) -> Op {
     let reached = |list: Vec<FactId>| {

@@ -68,7 +68,7 @@ impl LamaPortfolio {
     }
 
     /// For a first plan: the search with ordered landmarks, if it has a part, LAMA's with two kinds of preferred actions, and
-    /// LAMA's begun anew again and again.
+    /// a restarting LAMA.
     pub(crate) fn in_turn(self, in_order: Option<AStar>) -> Portfolio {
         let member = |search: Box<dyn Search>| Member { search, weight: 1 };
         let mut members: Vec<Member> = Vec::new();

@@ -55,7 +55,7 @@ impl Level {
             this.exclusive = Some((this.ground.atom(a), this.ground.atom(b)));
             return Ok(this);
         }
-        // What may not be used tells objects apart.
+        // Restrictions tell objects apart that the task does not.
         let symmetry = if *restrictions == Restrictions::default() {
             Symmetry::of(model, task, &this.ground, &fdr)
         } else {
@@ -71,7 +71,7 @@ impl Level {
         self.stages.is_some()
     }
 
-    /// Forgets the search, of which only the counts are left, and nothing can be asked any more.
+    /// Drops the search. Only what the grounding counted stays.
     pub(crate) fn close(&mut self) {
         self.stages = None;
     }
@@ -81,7 +81,7 @@ impl Level {
         &self.ground
     }
 
-    /// Why there is no plan of the task, with these restrictions, from which this level was made.
+    /// Why there is no plan. Model, task and restrictions are those that the level was made from.
     pub(crate) fn explain(&self, model: &ActionModel, task: &Task, restrictions: &Restrictions) -> Explanation {
         if self.is_open() {
             return Explanation::NotTogether { missing: self.missing() };

@@ -1,4 +1,4 @@
-//! What may be chosen of planning.
+//! The choices a caller has in planning.
 
 use crate::ground::TieOrder;
 use crate::strategy::Strategy;

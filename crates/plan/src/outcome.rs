@@ -7,17 +7,17 @@ use typelift_model::{Plan, Stop};
 pub enum Outcome {
     /// With a plan.
     Solved(Plan),
-    /// All that the model allows was searched, and nothing cut off: there is no plan.
+    /// Everything that the model allows was searched: there is no plan.
     Unsolvable,
-    /// All that was kept was searched: there is no further plan among it.
+    /// Everything that the search kept was searched: it holds no further plan.
     NoMorePlans,
     /// The budget ended it.
     Stopped(Stop),
 }
 
 impl Outcome {
-    /// The word for it wherever a program reads it. That there are no more plans is the same word as that there is none:
-    /// whoever has plans knows.
+    /// The word for it wherever a program reads it. There being no more plans has the same word as there being none at
+    /// all: a program that was given plans can tell the two apart.
     pub const fn word(&self) -> &'static str {
         match self {
             Self::Solved(_) => "solved",

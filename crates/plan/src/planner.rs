@@ -28,7 +28,7 @@ pub struct Planner {
 impl Planner {
     /// Grounds the task and finds its landmarks.
     ///
-    /// The model is taken as it is: whoever wants strict applicability or imagined actions rewrites it before.
+    /// The model is taken as it is: for strict applicability or imagined actions, rewrite it first.
     ///
     /// # Errors
     /// [`Stop`] if the budget ends grounding, or the work on landmarks.
@@ -42,8 +42,8 @@ impl Planner {
         Self::starting_from(None, model, task, restrictions, options, budget)
     }
 
-    /// The same from what can be reached of the task, with this model and these restrictions, and perhaps with few objects:
-    /// where the task is planned with the same objects, it is not worked out again.
+    /// The same where reachability, of this model and these restrictions, is known already, perhaps with few of the objects: it
+    /// is not computed again if the task is planned with the same objects.
     ///
     /// # Errors
     /// [`Stop`] if the budget ends grounding, or the work on landmarks.

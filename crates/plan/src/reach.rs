@@ -47,7 +47,7 @@ pub struct Reachable {
 }
 
 impl Reachable {
-    /// Works it out, once.
+    /// Computes it.
     ///
     /// # Errors
     /// [`Stop`] if the budget ends it.
@@ -102,12 +102,12 @@ impl Reachable {
         atoms
     }
 
-    /// How often reachability was worked out to come by this.
+    /// How often reachability was computed to get this.
     pub fn computed(&self) -> u64 {
         self.computed
     }
 
-    /// Whether it is of a task with these objects.
+    /// Whether it was computed with this task's objects.
     pub(crate) fn has_objects_of(&self, task: &Task) -> bool {
         self.facts.objects.iter().map(|(name, _)| name).eq(task.init.objects.keys())
     }
@@ -306,7 +306,7 @@ impl Join<'_> {
     }
 
     fn complete(&mut self, schema: &Compiled<'_>, binding: &mut Vec<Option<ObjectId>>) -> Result<(), Stop> {
-        let Some(free) = binding.iter().position(Option::is_none) else { return self.emit(schema, binding) };
+        let Some(free) = binding.iter().position(Option::is_none) else { return self.add_instance(schema, binding) };
         self.poll.check(self.facts.objects.len())?;
         for object in self.facts.object_ids() {
             if self.may_take(schema, free, object, binding) {

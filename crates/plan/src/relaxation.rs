@@ -1,4 +1,4 @@
-//! Delete relaxation: a task of which nothing is ever made false, as landmarks and heuristics see it.
+//! Delete relaxation: a task in which no fact ever becomes false, as landmarks and heuristics see it.
 //!
 //! Propositions are the facts of a [`Fdr`] by their dense numbers and, if asked for, the negations of those that must not
 //! hold somewhere, which what deletes the fact makes true. An effect with a condition is a relaxed action of its own, and so
@@ -12,7 +12,7 @@ use typelift_model::Stop;
 
 use crate::axioms::GroundAxiom;
 use crate::fdr::{ActionIndex, Assignment, Fdr, Values};
-use crate::lists::Lists;
+use crate::packed_lists::PackedLists;
 use crate::poll::Poll;
 
 /// A proposition of one [`Relaxation`].
@@ -38,14 +38,14 @@ pub(crate) struct Relaxation {
     negated: Vec<Option<Assignment>>,
     /// What holds in every state.
     always: Vec<Prop>,
-    pub(crate) preconditions: Lists<Prop>,
-    pub(crate) adds: Lists<Prop>,
+    pub(crate) preconditions: PackedLists<Prop>,
+    pub(crate) adds: PackedLists<Prop>,
     /// The action that each relaxed action is part of; none for axioms.
     pub(crate) action: Vec<Option<ActionIndex>>,
     /// The relaxed actions that need each proposition.
-    pub(crate) needed_by: Lists<RelaxedIndex>,
+    pub(crate) needed_by: PackedLists<RelaxedIndex>,
     /// The relaxed actions that add each proposition.
-    pub(crate) achievers: Lists<RelaxedIndex>,
+    pub(crate) achievers: PackedLists<RelaxedIndex>,
     pub(crate) goal: Vec<Prop>,
 }
 
@@ -107,8 +107,8 @@ impl Relaxation {
 /// Relaxed actions as they are met.
 #[derive(Default)]
 struct Relaxed {
-    preconditions: Lists<Prop>,
-    adds: Lists<Prop>,
+    preconditions: PackedLists<Prop>,
+    adds: PackedLists<Prop>,
     action: Vec<Option<ActionIndex>>,
 }
 
@@ -130,7 +130,7 @@ struct Builder<'a> {
     negatives: Negatives,
     props: u32,
     negations: BTreeMap<Assignment, Prop>,
-    /// Negations of which is not said yet what makes them true.
+    /// Negations for which it is not known yet what makes them true.
     open: Vec<(Assignment, Prop)>,
     always: Vec<Prop>,
     relaxed: Relaxed,
@@ -191,7 +191,7 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// Says of every negation what makes it true.
+    /// Finds for every negation what makes it true.
     fn close(&mut self, poll: &mut Poll<'_>) -> Result<(), Stop> {
         let task = self.task;
         let depends_on_itself = task.axioms.dependent_on_themselves();
@@ -260,7 +260,7 @@ impl Builder<'_> {
         for (&fact, &prop) in &self.negations {
             negated[(prop - facts) as usize] = Some(fact);
         }
-        let (mut preconditions, mut adds, mut action) = (Lists::default(), Lists::default(), Vec::new());
+        let (mut preconditions, mut adds, mut action) = (PackedLists::default(), PackedLists::default(), Vec::new());
         let (mut needed, mut added) = (Vec::new(), Vec::new());
         let relaxed = self.relaxed.preconditions.iter().zip(self.relaxed.adds.iter()).zip(&self.relaxed.action);
         for ((preconditions_met, adds_met), &part_of) in relaxed {

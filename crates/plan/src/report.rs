@@ -3,10 +3,10 @@
 use std::iter::Sum;
 use std::ops::{Add, AddAssign};
 
-/// What grounding and search counted. Reports add up: of searches that take turns, and of what came before.
+/// What grounding and search counted. The reports of searches that take turns, or follow each other, can be added.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Report {
-    /// How often what can be reached was worked out, for planning and, before it, for imagination.
+    /// How often reachability was computed, for planning and, before it, for imagination.
     pub groundings: u64,
     /// Ground actions.
     pub ground_actions: u64,

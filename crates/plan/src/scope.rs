@@ -5,15 +5,14 @@
 //!
 //! - that the goal or an action names,
 //! - within k steps of those of the goal, a step leading from one object of an initial atom to another, but none through
-//!   an object that is beside very many others,
+//!   an object that shares atoms with very many others,
 //! - that are the first k of their class, by name, with what is close beside each. Of one class are objects of one type of
 //!   which the initial atoms and the values say the same but for the other objects' names; their types count.
 //!
-//! A level that has more than a certain share of the objects is left out: it would cost nearly as much as all of them, and
-//! often for nothing. What is found
-//! with fewer objects is found with all, since a ground action is the same whatever objects there are besides; so this is
-//! done only where that is so: not where something holds, or happens, for all objects. That nothing is found with fewer
-//! objects says nothing.
+//! A level with more than a certain share of the objects is left out: it would cost nearly as much as all of them, and often
+//! for nothing. A plan with fewer objects is a plan with all, since a ground action does not depend on which other objects
+//! there are. Where it does, because a condition or an effect is about all objects, no levels are used. That no plan is found
+//! with fewer objects says nothing.
 //!
 //! Up to 50 objects, or 1,000 for lazy searches, all are taken at once; so they are where a cheapest plan is wanted. That there
 //! is no plan, no further one, none that is cheaper, and what is wrong with the goal, is only ever said of all objects.
@@ -31,7 +30,7 @@ use crate::alike::{alike, constants};
 pub(crate) struct Thresholds {
     /// Tasks with at most so many objects are planned with all of them.
     few: usize,
-    /// A level has at most so many of so many objects.
+    /// The largest share of the objects that a level may have, as a fraction.
     share: (usize, usize),
 }
 
@@ -39,9 +38,9 @@ pub(crate) struct Thresholds {
 pub(crate) const EAGERLY: Thresholds = Thresholds { few: 50, share: (2, 3) };
 /// For searches that estimate what they expand.
 pub(crate) const LAZILY: Thresholds = Thresholds { few: 1_000, share: (1, 4) };
-/// What is beside more than so many others leads nowhere.
+/// No step leads through an object with more neighbours than this.
 const MANY_NEIGHBOURS: usize = 16;
-/// What is beside at most so many others brings them with it.
+/// An object with at most this many neighbours brings them with it.
 const CLOSE_NEIGHBOURS: usize = 4;
 /// How many states may be expanded with the objects of level 1 before there are more objects.
 const EXPANSIONS: u64 = 2_000;
@@ -59,7 +58,7 @@ pub(crate) struct Scopes {
     classes: Vec<Vec<Object>>,
     /// The number of steps from the goal's objects, where they lead there; 0 for what an action names.
     distance: Vec<Option<usize>>,
-    /// A level has at most so many of so many objects.
+    /// The largest share of the objects that a level may have, as a fraction.
     share: (usize, usize),
     /// The level, and whether each object is in it; `None` if it has all.
     current: Option<(usize, Vec<bool>)>,
@@ -183,7 +182,7 @@ fn distances(from: impl Iterator<Item = Object>, neighbours: &[Vec<Object>]) -> 
     distance
 }
 
-/// Objects of which the same is said; what failed before is told apart.
+/// Objects of which the task says the same. Objects with exclusions are a class of their own.
 fn classes(task: &Task, restrictions: &Restrictions, ids: &HashMap<&Symbol, Object>) -> Vec<Vec<Object>> {
     let distrusted: BTreeSet<&Symbol> = restrictions.excluded.iter().map(|exclusion| &exclusion.object).collect();
     let objects = task.init.objects.iter().map(|(name, ty)| (name, (*ty, distrusted.contains(name))));

@@ -1,4 +1,4 @@
-//! The searches of a strategy, one after the other: for a first plan, for cheaper ones, for different ones.
+//! The searches of a strategy, one after another: for the first plan, for cheaper plans, for different plans.
 //!
 //! A* goes on to all of its plans. A lazy search closes each state after its first way there; so cheaper plans are looked
 //! for by another search, which ranks by the costs so far too, with a smaller and smaller weight on the estimate (Richter,
@@ -50,18 +50,18 @@ impl Stage {
 #[derive(Debug)]
 pub(crate) struct Stages {
     space: Arc<Space>,
-    /// How many ways to each state are kept where that is possible.
+    /// How many ways to each state a search keeps, if it can keep several.
     plans: usize,
     strategy: Strategy,
     stage: Stage,
     search: Box<dyn Search>,
     has_found: bool,
-    /// What searches that are over have counted.
+    /// What finished searches have counted.
     past: Report,
 }
 
 impl Stages {
-    /// The first stage of a strategy; `plans` different ways to each state are kept where that is possible.
+    /// The first stage of a strategy; `plans` is how many ways to each state it keeps, if it can keep several.
     ///
     /// # Errors
     /// [`Stop`] if the budget ends the work on landmarks and relaxation.
@@ -108,7 +108,7 @@ impl Search for Stages {
         if matches!(found, Found::Plan(_)) {
             self.has_found = true;
             if cost_bound.is_some() && !self.is_one_for_all() {
-                // Without the time for the next stage this one goes on.
+                // If there is no time to prepare the next stage, this one goes on.
                 let _ = self.turn_to(self.strategy, self.stage.next(), budget);
             }
         }

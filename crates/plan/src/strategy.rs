@@ -1,4 +1,4 @@
-//! Every way to search, by name. Which searches these are is in `stages`.
+//! Every way to search, by name; `stages` has the searches behind the names.
 //!
 //! Learned models are planned for with the paper's search by default: on the kitchen's 24 tasks it expands 5 to 66 nodes
 //! (`typelift plan MODEL TASK --imagine`), and no other does better there.

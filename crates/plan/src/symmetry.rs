@@ -16,8 +16,8 @@ use crate::alike::{alike, constants};
 use crate::fact::FactId;
 use crate::fdr::{ActionIndex, Fdr, Values};
 use crate::ground::GroundTask;
-use crate::lists::Lists;
 use crate::op::Op;
+use crate::packed_lists::PackedLists;
 
 /// An interchangeable object: they are numbered class by class.
 type Member = u32;
@@ -29,21 +29,21 @@ pub(crate) struct Symmetry {
     class: Vec<u32>,
     classes: usize,
     /// The members that each fact mentions, by its dense number.
-    mentioned: Lists<Member>,
+    mentioned: PackedLists<Member>,
     /// The members that each action depends on, in the order in which it mentions them.
-    used: Lists<Member>,
+    used: PackedLists<Member>,
     /// For actions that depend on members: the schema, and each object or, less than 0, member.
     instances: HashMap<ActionIndex, Box<[i64]>>,
     by_instance: HashMap<Box<[i64]>, ActionIndex>,
 }
 
-/// Which members a state has as they were initially.
+/// The members of which everything still is as it was initially, in one state.
 #[derive(Debug, Default)]
-pub(crate) struct Untouched {
-    touched: Vec<bool>,
-    /// The place of each untouched member among those of its class.
+pub(crate) struct UnchangedMembers {
+    changed: Vec<bool>,
+    /// The place of each unchanged member among those of its class.
     place: Vec<u32>,
-    /// The untouched members of each class.
+    /// The unchanged members of each class.
     members: Vec<Vec<Member>>,
     /// How many of each class are used already.
     used: Vec<u32>,
@@ -101,56 +101,56 @@ impl Symmetry {
         self.classes == 0
     }
 
-    /// Finds what is untouched in a state.
-    pub(crate) fn look_at(&self, fdr: &Fdr, values: &Values, untouched: &mut Untouched) {
-        untouched.touched.clear();
-        untouched.touched.resize(self.class.len(), false);
+    /// Finds the unchanged members of a state.
+    pub(crate) fn look_at(&self, fdr: &Fdr, values: &Values, unchanged: &mut UnchangedMembers) {
+        unchanged.changed.clear();
+        unchanged.changed.resize(self.class.len(), false);
         for number in fdr.differing(values, &fdr.init) {
             for &member in self.mentioned.get(number as usize) {
-                untouched.touched[member as usize] = true;
+                unchanged.changed[member as usize] = true;
             }
         }
-        untouched.members.resize_with(self.classes, Vec::new);
-        untouched.members.iter_mut().for_each(Vec::clear);
-        untouched.place.clear();
+        unchanged.members.resize_with(self.classes, Vec::new);
+        unchanged.members.iter_mut().for_each(Vec::clear);
+        unchanged.place.clear();
         for (member, &class) in self.class.iter().enumerate() {
-            let members = &mut untouched.members[class as usize];
-            untouched.place.push(members.len() as u32);
-            if !untouched.touched[member] {
+            let members = &mut unchanged.members[class as usize];
+            unchanged.place.push(members.len() as u32);
+            if !unchanged.changed[member] {
                 members.push(member as u32);
             }
         }
-        untouched.used.clear();
-        untouched.used.resize(self.classes, 0);
+        unchanged.used.clear();
+        unchanged.used.resize(self.classes, 0);
     }
 
-    /// The members that an action uses and a state has untouched, each with the one that is to be used in its place.
-    fn exchanged<'a>(&'a self, action: ActionIndex, untouched: &'a mut Untouched) -> Vec<(Member, Member)> {
+    /// The unchanged members that an action uses, each with the one that is to be used in its place.
+    fn exchanged<'a>(&'a self, action: ActionIndex, unchanged: &'a mut UnchangedMembers) -> Vec<(Member, Member)> {
         let used = self.used.get(action as usize);
         let mut exchanged = Vec::new();
-        for &member in used.iter().filter(|&&member| !untouched.touched[member as usize]) {
+        for &member in used.iter().filter(|&&member| !unchanged.changed[member as usize]) {
             let class = self.class[member as usize] as usize;
-            exchanged.push((member, untouched.members[class][untouched.used[class] as usize]));
-            untouched.used[class] += 1;
+            exchanged.push((member, unchanged.members[class][unchanged.used[class] as usize]));
+            unchanged.used[class] += 1;
         }
         for &member in used {
-            untouched.used[self.class[member as usize] as usize] = 0;
+            unchanged.used[self.class[member as usize] as usize] = 0;
         }
         exchanged
     }
 
-    /// Whether an action takes the first untouched objects of each class.
-    pub(crate) fn takes_first(&self, action: ActionIndex, untouched: &mut Untouched) -> bool {
+    /// Whether an action takes the first unchanged objects of each class.
+    pub(crate) fn takes_first(&self, action: ActionIndex, unchanged: &mut UnchangedMembers) -> bool {
         match self.used.get(action as usize) {
             [] => true,
-            [only] => untouched.touched[*only as usize] || untouched.place[*only as usize] == 0,
-            _ => self.exchanged(action, untouched).iter().all(|(member, first)| member == first),
+            [only] => unchanged.changed[*only as usize] || unchanged.place[*only as usize] == 0,
+            _ => self.exchanged(action, unchanged).iter().all(|(member, first)| member == first),
         }
     }
 
     /// The action that is tried in the place of an action that does not take the first.
-    pub(crate) fn first_like(&self, action: ActionIndex, untouched: &mut Untouched) -> Option<ActionIndex> {
-        let exchanged = self.exchanged(action, untouched);
+    pub(crate) fn first_like(&self, action: ActionIndex, unchanged: &mut UnchangedMembers) -> Option<ActionIndex> {
+        let exchanged = self.exchanged(action, unchanged);
         let mut instance = self.instances.get(&action)?.clone();
         for object in &mut instance[1..] {
             if let Some((_, first)) = exchanged.iter().find(|(member, _)| -1 - i64::from(*member) == *object) {
@@ -193,10 +193,10 @@ mod tests {
     /// The actions of a problem that are tried in a state, as far as symmetry goes.
     fn tried(worked: &Worked, atoms: &str) -> Vec<String> {
         let symmetry = Symmetry::of(worked.model(), worked.task(), &worked.ground, &worked.fdr);
-        let mut untouched = Untouched::default();
-        symmetry.look_at(&worked.fdr, &worked.values_of(atoms), &mut untouched);
+        let mut unchanged = UnchangedMembers::default();
+        symmetry.look_at(&worked.fdr, &worked.values_of(atoms), &mut unchanged);
         let all = 0..worked.fdr.action_count() as u32;
-        worked.names(&all.filter(|&action| symmetry.takes_first(action, &mut untouched)).collect::<Vec<_>>())
+        worked.names(&all.filter(|&action| symmetry.takes_first(action, &mut unchanged)).collect::<Vec<_>>())
     }
 
     #[test]
@@ -212,7 +212,7 @@ mod tests {
             tried(&worked, "clean(a) clean(b) clean(c) clean(mug)"),
             ["drink(a)", "drink(mug)", "fill(a)", "fill(mug)"]
         );
-        // Of a, which is touched, everything is tried, and of the others the first that is not.
+        // Of a, which is changed, everything is tried, and of the others the first that is not.
         let after = tried(&worked, "full(a) clean(b) clean(c) clean(mug)");
         assert_eq!(after, ["drink(a)", "drink(b)", "drink(mug)", "fill(a)", "fill(b)", "fill(mug)"]);
     }

@@ -24,15 +24,15 @@ pub(crate) struct Widening {
     level: Level,
     /// The level is over, and the next not grounded yet.
     over: bool,
-    /// The expansions of this level when it had found its last plan.
+    /// How much this level had expanded when it found its last plan.
     expansions_before: u64,
-    /// What levels that are over have counted, and all groundings.
+    /// What finished levels have counted, and all groundings.
     past: Report,
 }
 
 impl Widening {
-    /// Grounds the task with as few objects as reach its goals. What can be reached, with this model and these restrictions and
-    /// perhaps with few objects, is not worked out again where it is given and the task is planned with the same objects.
+    /// Grounds the task with as few objects as reach its goals. `reachable`, of this model and these
+    /// restrictions, saves computing it again, if it has the same objects as the level.
     ///
     /// # Errors
     /// [`Stop`] if the budget ends it.
@@ -122,7 +122,7 @@ impl Search for Widening {
                 return Found::Stopped(stop);
             }
             let before = self.level.report().expansions;
-            // With fewer objects not everything is searched, however long it takes.
+            // A level without all objects is not searched to the end if that takes long.
             let allowed = self.scopes.expansions().map(|all| (all + self.expansions_before).saturating_sub(before));
             let expansions = budget.expansions.into_iter().chain(allowed).min();
             let found = self.level.next(cost_bound, &Budget { expansions, ..budget.clone() });

@@ -1,4 +1,4 @@
-//! Actions that nobody learned, as a PDDL domain gives them: conditions in their effects, parameters that may be equal.
+//! Actions that were given, not learned, as a PDDL domain gives them: conditions in their effects, parameters that may be equal.
 
 use typelift_model::testing::Tiny;
 use typelift_model::{

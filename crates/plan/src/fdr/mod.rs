@@ -19,8 +19,8 @@ pub(crate) use crate::assignment::{Assignment, Place, Values};
 use crate::axioms::Axioms;
 use crate::fact::FactId;
 use crate::ground::GroundTask;
-use crate::lists::Lists;
 use crate::op::{ConditionalEffect, Op, OpId};
+use crate::packed_lists::PackedLists;
 use crate::poll::Poll;
 
 /// An effect with a condition.
@@ -42,12 +42,12 @@ pub(crate) struct Actions {
     pub(crate) costs: Vec<u32>,
     /// Whether each touches an object of the goal that is no actor.
     pub(crate) touches_goal: Vec<bool>,
-    pub(crate) preconditions: Lists<Assignment>,
-    pub(crate) negative: Lists<Assignment>,
-    pub(crate) deletes: Lists<Assignment>,
-    pub(crate) adds: Lists<Assignment>,
+    pub(crate) preconditions: PackedLists<Assignment>,
+    pub(crate) negative: PackedLists<Assignment>,
+    pub(crate) deletes: PackedLists<Assignment>,
+    pub(crate) adds: PackedLists<Assignment>,
     /// Which of `when` belong to each.
-    pub(crate) conditional: Lists<u32>,
+    pub(crate) conditional: PackedLists<u32>,
     pub(crate) when: Vec<When>,
 }
 

@@ -17,8 +17,8 @@ use typelift_model::{HashMap, Stop};
 
 use crate::fact::{FactId, ObjectId};
 use crate::ground::GroundTask;
-use crate::lists::Lists;
 use crate::op::{Op, OpId};
+use crate::packed_lists::PackedLists;
 use crate::poll::Poll;
 
 /// How many candidates are looked at.
@@ -32,7 +32,7 @@ const MOST_WORK: usize = 100_000_000;
 pub(crate) struct MutexGroups {
     groups: Vec<Vec<FactId>>,
     /// The groups of each fact.
-    of_fact: Lists<u32>,
+    of_fact: PackedLists<u32>,
 }
 
 impl MutexGroups {
@@ -40,7 +40,7 @@ impl MutexGroups {
         let groups = Finder::new(task, changing, poll)?.run(poll)?;
         let pairs =
             groups.iter().zip(0..).flat_map(|(group, g)| group.iter().map(move |fact| (fact.index() as u32, g)));
-        let of_fact = Lists::from_pairs(task.fact_count(), pairs);
+        let of_fact = PackedLists::from_pairs(task.fact_count(), pairs);
         Ok(Self { groups, of_fact })
     }
 
@@ -119,7 +119,7 @@ struct Finder<'a> {
     task: &'a GroundTask,
     productions: Vec<Production>,
     /// What each production certainly makes false.
-    consumed: Lists<FactId>,
+    consumed: PackedLists<FactId>,
     /// The facts that can change and are not derived, by predicate.
     by_predicate: HashMap<u32, Vec<FactId>>,
     initially: Vec<FactId>,
@@ -135,7 +135,8 @@ impl<'a> Finder<'a> {
             by_predicate.entry(task.facts().predicate(fact)).or_default().push(fact);
         }
         let initially = task.init().iter().copied().filter(|fact| changing[fact.index()]).collect();
-        let mut this = Self { task, productions: Vec::new(), consumed: Lists::default(), by_predicate, initially };
+        let mut this =
+            Self { task, productions: Vec::new(), consumed: PackedLists::default(), by_predicate, initially };
         for ((_, op), number) in task.ops().zip(0..) {
             poll.check(1 + op.preconditions.len() + op.adds.len() + op.conditional.len())?;
             this.add_productions(op, number);

@@ -5,7 +5,7 @@ use std::collections::BinaryHeap;
 
 const BUCKETS: usize = 1 << 12;
 
-/// Takes out what was put in with the smallest key first; keys put in may not be smaller than the one taken out last.
+/// Takes items out smallest key first. A key put in may not be smaller than the one taken out last.
 #[derive(Debug, Default)]
 pub(crate) struct BucketQueue {
     buckets: Vec<Vec<u32>>,

@@ -5,8 +5,8 @@
 //! an action in the relaxed plan is paid once; derived facts follow without cost, their negations by what blocks their
 //! axioms. Preferred are the actions of the relaxed plan whose preconditions hold.
 //!
-//! Helpful are, as in FF, all actions that achieve something which the relaxed plan achieves first, whether they stand in it or
-//! not. Where many actions are equally good (parking), nothing but their numbers chooses those that stand in it.
+//! Helpful, as in FF, are all actions that achieve something that the relaxed plan achieves at once, whether or not they are in
+//! the plan. Where many actions are equally good (parking), only their numbers decide which of them are in the plan.
 
 use std::sync::Arc;
 
@@ -14,12 +14,12 @@ use super::bucket_queue::BucketQueue;
 use super::undominated::Undominated;
 use super::{Heuristic, Reached};
 use crate::fdr::{ActionIndex, Fdr};
-use crate::lists::Lists;
+use crate::packed_lists::PackedLists;
 use crate::relaxation::{Prop, Relaxation, RelaxedIndex};
 use crate::shuffle::Shuffler;
 
 const UNREACHED: u32 = u32::MAX;
-const NOBODY: RelaxedIndex = RelaxedIndex::MAX;
+const NO_SUPPORTER: RelaxedIndex = RelaxedIndex::MAX;
 
 /// A relaxed action while the costs are computed.
 #[derive(Debug, Clone, Copy)]
@@ -36,7 +36,7 @@ pub(crate) struct Ff {
     relaxation: Arc<Relaxation>,
     relaxed: Arc<Undominated>,
     /// The relaxed actions that need each proposition, in the order in which they are looked at.
-    needed_by: Lists<RelaxedIndex>,
+    needed_by: PackedLists<RelaxedIndex>,
     /// The cost of each action.
     action_costs: Vec<u32>,
     start: Vec<Progress>,
@@ -56,7 +56,7 @@ pub(crate) struct Ff {
 }
 
 impl Ff {
-    /// Relaxed plans of what is left of the relaxation's actions, with these costs of the actions.
+    /// Relaxed plans made of the undominated relaxed actions, where the actions have these costs.
     pub(crate) fn new(relaxation: Arc<Relaxation>, relaxed: Arc<Undominated>, action_costs: Vec<u32>) -> Self {
         let missing = relaxed.preconditions.iter().map(|list| list.len() as u32);
         let start: Vec<Progress> =
@@ -71,7 +71,7 @@ impl Ff {
             start,
             needed_by: relaxed.needed_by.clone(),
             prop_costs: vec![UNREACHED; relaxation.len()],
-            supporters: vec![NOBODY; relaxation.len()],
+            supporters: vec![NO_SUPPORTER; relaxation.len()],
             is_goal,
             queue: BucketQueue::default(),
             seen_props: vec![0; relaxation.len()],
@@ -86,7 +86,7 @@ impl Ff {
         }
     }
 
-    /// The same, with supporters chosen otherwise among the best.
+    /// The same, with ties between best supporters broken another way.
     pub(crate) fn shuffled(mut self, shuffler: &mut Shuffler) -> Self {
         for prop in 0..self.needed_by.len() {
             shuffler.shuffle(self.needed_by.get_mut(prop));
@@ -110,7 +110,7 @@ impl Ff {
         self.prop_costs.fill(UNREACHED);
         self.queue.clear();
         for prop in relaxation.held(task, reached.values) {
-            self.enqueue(prop, 0, NOBODY);
+            self.enqueue(prop, 0, NO_SUPPORTER);
         }
         for i in 0..self.without_preconditions.len() {
             let relaxed = self.without_preconditions[i];
@@ -161,7 +161,7 @@ impl Ff {
                 continue;
             }
             let supporter = self.supporters[prop as usize];
-            if supporter == NOBODY {
+            if supporter == NO_SUPPORTER {
                 continue;
             }
             let supporter = supporter as usize;

@@ -19,7 +19,7 @@ use crate::relaxation::Relaxation;
 #[derive(Debug)]
 pub(crate) struct LandmarkCount {
     graph: Arc<LandmarkGraph>,
-    /// What each landmark asks for, one of them: facts, and whether they must hold.
+    /// The literals of each landmark, one of which makes it true: facts, and whether they must hold.
     literals: Vec<Vec<(Assignment, bool)>>,
 }
 

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use super::bucket_queue::BucketQueue;
 use super::{CostMeasure, Heuristic, Reached};
 use crate::fdr::{ActionIndex, Fdr};
-use crate::lists::Lists;
+use crate::packed_lists::PackedLists;
 use crate::relaxation::{Prop, Relaxation, RelaxedIndex};
 
 const UNREACHED: u32 = u32::MAX;
@@ -30,12 +30,12 @@ enum Zone {
 pub(crate) struct LmCut {
     relaxation: Arc<Relaxation>,
     /// The relaxed actions, in which each needs something, and last one without cost that needs the goal.
-    preconditions: Lists<Prop>,
-    adds: Lists<Prop>,
-    needed_by: Lists<RelaxedIndex>,
-    achievers: Lists<RelaxedIndex>,
+    preconditions: PackedLists<Prop>,
+    adds: PackedLists<Prop>,
+    needed_by: PackedLists<RelaxedIndex>,
+    achievers: PackedLists<RelaxedIndex>,
     action: Vec<Option<ActionIndex>>,
-    parts: Lists<RelaxedIndex>,
+    parts: PackedLists<RelaxedIndex>,
     /// Holds always.
     nothing: Prop,
     goal: Prop,
@@ -53,7 +53,7 @@ pub(crate) struct LmCut {
 impl LmCut {
     pub(crate) fn new(task: &Fdr, relaxation: Arc<Relaxation>) -> Self {
         let (nothing, goal) = (relaxation.len() as Prop, relaxation.len() as Prop + 1);
-        let (mut preconditions, mut adds) = (Lists::default(), Lists::default());
+        let (mut preconditions, mut adds) = (PackedLists::default(), PackedLists::default());
         let or_nothing = |list: &[Prop]| if list.is_empty() { vec![nothing] } else { list.to_vec() };
         for (needed, added) in relaxation.preconditions.iter().zip(relaxation.adds.iter()) {
             preconditions.push(or_nothing(needed));
@@ -65,7 +65,7 @@ impl LmCut {
         action.push(None);
         let props = goal as usize + 1;
         let pairs = action.iter().zip(0..).filter_map(|(action, relaxed)| action.map(|action| (action, relaxed)));
-        let parts = Lists::from_pairs(task.action_count(), pairs);
+        let parts = PackedLists::from_pairs(task.action_count(), pairs);
         let action_costs = CostMeasure::Plain.of(task);
         Self {
             needed_by: preconditions.inverse(props),
@@ -162,7 +162,7 @@ impl LmCut {
         }
     }
 
-    /// Marks what reaches the goal without cost.
+    /// Marks the propositions from which the goal is reached without cost.
     fn mark_goal_zone(&mut self) {
         self.zones.fill(Zone::Unknown);
         self.zones[self.goal as usize] = Zone::Goal;

@@ -31,7 +31,7 @@ pub(crate) struct Reached<'a> {
     pub(crate) by: Option<Step<'a>>,
 }
 
-/// What came before a state.
+/// The step that led to a state.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Step<'a> {
     /// The action that led here.
@@ -52,25 +52,26 @@ pub(crate) trait Heuristic: Debug + Send {
     /// Estimates a state, and fills its memory; `None` if no plan leads from it to the goal.
     fn estimate(&mut self, task: &Fdr, reached: Reached<'_>, memory: &mut [u32]) -> Option<u32>;
 
-    /// The actions with which what the estimate of the last state rests on begins. Some may not be applicable.
+    /// The actions that the heuristic would begin with in the state estimated last, such as the first ones of a relaxed plan.
+    /// Some may not be applicable.
     fn preferred(&self) -> &[ActionIndex] {
         &[]
     }
 
-    /// The actions that do something of what these do. Some may not be applicable.
+    /// The actions that achieve something that a [preferred](Self::preferred) action achieves. Some may not be applicable.
     fn helpful(&self) -> &[ActionIndex] {
         &[]
     }
 }
 
-/// What an action costs in the eyes of a heuristic or a search.
+/// How a heuristic or a search measures the cost of an action.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum CostMeasure {
     /// Each action 1.
     Steps,
-    /// What the task says.
+    /// The task's cost.
     Plain,
-    /// What the task says and 1, so that actions without cost count; plain if all actions cost the same.
+    /// The task's cost plus 1, so that actions without cost count; the plain cost if all actions cost the same.
     PlusOne,
 }
 

@@ -63,8 +63,8 @@ mod tests {
 
     #[test]
     fn landmarks_left_and_penalties() {
-        // The egg's landmarks are held(egg), then boiled(egg): two are left at first. Whoever passes none is charged 1, and so
-        // is what has nothing to do with the egg.
+        // The egg's landmarks are held(egg), then boiled(egg): two are left at first. An action that passes no landmark is
+        // charged 1, and so is one that has nothing to do with the egg.
         let worked = Worked::new(
             "init: in(egg) cold
              goal: boiled(egg)

@@ -4,25 +4,25 @@
 use typelift_model::{HashMap, Stop};
 
 use crate::fdr::ActionIndex;
-use crate::lists::Lists;
+use crate::packed_lists::PackedLists;
 use crate::poll::Poll;
 use crate::relaxation::{Prop, Relaxation};
 
 /// Preconditions of more propositions are compared with equal ones alone.
 const MOST_SUBSETS_OF: usize = 5;
 
-/// What is left of the relaxed actions.
+/// The relaxed actions that no other dominates.
 #[derive(Debug, Default)]
 pub(crate) struct Undominated {
-    pub(crate) preconditions: Lists<Prop>,
-    pub(crate) adds: Lists<Prop>,
+    pub(crate) preconditions: PackedLists<Prop>,
+    pub(crate) adds: PackedLists<Prop>,
     pub(crate) action: Vec<Option<ActionIndex>>,
     pub(crate) costs: Vec<u32>,
-    pub(crate) needed_by: Lists<u32>,
+    pub(crate) needed_by: PackedLists<u32>,
 }
 
 impl Undominated {
-    /// Leaves out what is dominated, with these costs of the actions.
+    /// Leaves out dominated relaxed actions, where the actions have these costs.
     ///
     /// # Errors
     /// [`Stop`] if the budget ends it.
@@ -50,7 +50,7 @@ impl Undominated {
                 *known = way.min(*known);
             }
         }
-        let mut subsets = Lists::default();
+        let mut subsets = PackedLists::default();
         for set in &sets {
             poll.check(1 << set.len().min(MOST_SUBSETS_OF))?;
             subsets.push(known_subsets(set, &set_ids));

@@ -137,7 +137,7 @@ impl Orders<'_> {
                 deleted
             })
             .collect();
-        // What forecloses each other has to be achieved at once: neither comes before the other.
+        // Two that foreclose each other have to be achieved at once: neither comes before the other.
         let must = |a: usize, b: usize| {
             self.landmarks.is_before(props[a], props[b])
                 || self.foreclosed(props[a], &lost[b]) && !self.foreclosed(props[b], &lost[a])

@@ -2,8 +2,8 @@
 //! 2009): a state is evaluated when it is expanded, and its successors wait with their predecessor's estimates.
 //!
 //! Greedy by h alone; weighted by g + w·h, reopening what is reached on a smaller g. With several heuristics the open list
-//! alternates between them. Nothing is claimed of the first plan's cost; but where a search ends without a plan below a
-//! bound, there is none, as far as the heuristics' dead ends are dead ends.
+//! alternates between them. Nothing is claimed of the first plan's cost; but if a search ends without a plan below a
+//! bound, there is none, provided that the heuristics' dead ends really are dead ends.
 
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ use crate::heuristic::{CostMeasure, Heuristic, Reached, Step};
 use crate::poll::Poll;
 use crate::report::Report;
 use crate::shuffle::Shuffler;
-use crate::symmetry::Untouched;
+use crate::symmetry::UnchangedMembers;
 
 /// What comes first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,14 +34,14 @@ pub(crate) struct Ranking {
     pub(crate) measure: CostMeasure,
 }
 
-/// Which actions lead to states that are listed apart.
+/// The actions whose successors get an open list of their own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Preference {
     /// None.
     None,
-    /// Those with which relaxed plans begin.
+    /// The applicable actions of relaxed plans.
     Preferred,
-    /// Those that do something of what these do.
+    /// All applicable actions that achieve something that these achieve.
     Helpful,
 }
 
@@ -82,7 +82,7 @@ pub(crate) struct Lazy {
     before: Vec<u32>,
     memory: Vec<u32>,
     applicable: Vec<ActionIndex>,
-    untouched: Untouched,
+    unchanged: UnchangedMembers,
     /// When each action was last preferred.
     preferred: Vec<u64>,
     /// Brings successors into another order.
@@ -123,7 +123,7 @@ impl Lazy {
             before: vec![0; variables],
             memory: vec![0; memory_len],
             applicable: Vec::new(),
-            untouched: Untouched::default(),
+            unchanged: UnchangedMembers::default(),
             preferred: vec![0; space.task.action_count()],
             shuffler: None,
             heuristics,
@@ -224,18 +224,19 @@ impl Lazy {
         true
     }
 
-    /// Leaves out applicable actions in whose place others are tried, which are preferred if they are.
+    /// Leaves out applicable actions that are the same as another but for interchangeable objects; if one was preferred, the
+    /// other becomes preferred.
     fn keep_first(&mut self, space: &Space) {
         if space.symmetry.is_trivial() {
             return;
         }
-        space.symmetry.look_at(&space.task, &self.values, &mut self.untouched);
+        space.symmetry.look_at(&space.task, &self.values, &mut self.unchanged);
         let (preferred, now) = (&mut self.preferred, self.evaluations);
         self.applicable.retain(|&action| {
-            let keep = space.symmetry.takes_first(action, &mut self.untouched);
+            let keep = space.symmetry.takes_first(action, &mut self.unchanged);
             if !keep
                 && preferred[action as usize] == now
-                && let Some(first) = space.symmetry.first_like(action, &mut self.untouched)
+                && let Some(first) = space.symmetry.first_like(action, &mut self.unchanged)
             {
                 preferred[first as usize] = now;
             }

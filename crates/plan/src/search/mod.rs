@@ -1,5 +1,5 @@
-//! Searches. Whatever can be asked for one plan after another is a [`Search`]: one open list, several in turn, one after the
-//! other for cheaper and cheaper plans, with few objects and then with more.
+//! Searches. Everything that can be asked for one plan after another is a [`Search`]: a search with one open list, several
+//! searches that take turns, searches for cheaper and cheaper plans, and searches with more and more objects.
 
 mod astar;
 #[cfg(test)]
@@ -22,12 +22,12 @@ use typelift_model::{Budget, GroundAtom, Plan, Stop};
 
 use crate::report::Report;
 
-/// What a search came to.
+/// How a search ended.
 #[derive(Debug)]
 pub(crate) enum Found {
-    /// A plan, perhaps one that was found before: who asks tells them apart.
+    /// A plan, perhaps one that was found before: the caller tells them apart.
     Plan(Plan),
-    /// Everything that is not too dear was searched.
+    /// Everything below the cost bound was searched.
     Nothing,
     /// The budget ended it.
     Stopped(Stop),
@@ -47,6 +47,7 @@ pub(crate) trait Search: Debug + Send {
         0
     }
 
-    /// What of the goal was missing in the state expanded so far in which most of it held, and whether each must hold.
+    /// Of the expanded states, take the one in which most goal atoms held: the goal atoms that did not, and whether each must
+    /// hold.
     fn missing(&self) -> Vec<(GroundAtom, bool)>;
 }

@@ -2,7 +2,7 @@
 //! their own for what preferred actions lead to, which are boosted at progress (Richter and Helmert 2009).
 use std::collections::{BTreeMap, VecDeque};
 
-/// How many turns lists of preferred entries are given at progress.
+/// How many extra turns the lists of preferred entries get when an estimate improves.
 const BOOST: i64 = 1000;
 
 #[derive(Debug)]
@@ -10,7 +10,7 @@ struct List<T> {
     /// Which key counts here.
     key: usize,
     preferred_only: bool,
-    /// How often it had its turn, less the boosts.
+    /// How many turns it had, minus the boosts.
     turns: i64,
     buckets: BTreeMap<u64, VecDeque<T>>,
 }
@@ -37,7 +37,7 @@ impl<T: Copy> Alternation<T> {
         }
     }
 
-    /// Takes the first entry of the list whose turn it is. Entries of other lists stay, the same ones too.
+    /// Takes the first entry of the list whose turn it is. Its copies in other lists stay there.
     pub(crate) fn pop(&mut self) -> Option<T> {
         let list = self.lists.iter_mut().filter(|list| !list.buckets.is_empty()).min_by_key(|list| list.turns)?;
         list.turns += 1;

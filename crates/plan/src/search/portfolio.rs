@@ -11,14 +11,15 @@ use crate::report::Report;
 /// The expansions of the first turn.
 const FIRST_TURN: u64 = 600;
 
-/// Of a search that estimates every successor, an expansion counts as so many of one that estimates what it expands.
+/// An expansion of a search that estimates every successor counts as this many of a search that estimates only the states it
+/// expands.
 pub(crate) const EAGER: u64 = 8;
 
 /// One of the searches.
 #[derive(Debug)]
 pub(crate) struct Member {
     pub(crate) search: Box<dyn Search>,
-    /// What an expansion of it counts.
+    /// How much one of its expansions counts.
     pub(crate) weight: u64,
 }
 
@@ -81,7 +82,7 @@ impl Search for Portfolio {
         self.members.iter().map(|member| member.search.report()).sum()
     }
 
-    /// The first one's, which is the same whoever had more turns.
+    /// The first member's, which does not depend on how many turns the others had.
     fn missing(&self) -> Vec<(GroundAtom, bool)> {
         self.members.first().map(|first| first.search.missing()).unwrap_or_default()
     }

@@ -1,4 +1,4 @@
-//! A search that begins anew again and again, each time with ties broken in another way, and each time for longer.
+//! A search that is restarted again and again, each time with ties broken in another way, and from time to time for longer.
 //!
 //! Greedy searches have heavy tails: the same search with ties broken otherwise may take a hundredth or a hundred times the
 //! expansions (Gomes, Selman, Crato and Kautz 2000).

@@ -1,4 +1,4 @@
-//! What is searched.
+//! The state space that searches work on.
 
 use std::sync::Arc;
 
@@ -18,7 +18,7 @@ pub(crate) struct Space {
 }
 
 impl Space {
-    /// The space of a ground task, which this is in finite-domain representation.
+    /// The space of a ground task; `task` is the same task in finite-domain representation.
     pub(crate) fn new(ground: Arc<GroundTask>, task: Fdr, symmetry: Symmetry) -> Self {
         let successors = SuccessorGenerator::new(&task);
         Self { ground, task, successors, symmetry }

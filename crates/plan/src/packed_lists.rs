@@ -1,19 +1,19 @@
 //! Many short lists in two allocations.
 
-/// Lists of `T`, numbered from 0.
+/// PackedLists of `T`, numbered from 0.
 #[derive(Debug, Clone)]
-pub(crate) struct Lists<T> {
+pub(crate) struct PackedLists<T> {
     ends: Vec<u32>,
     items: Vec<T>,
 }
 
-impl<T> Default for Lists<T> {
+impl<T> Default for PackedLists<T> {
     fn default() -> Self {
         Self { ends: Vec::new(), items: Vec::new() }
     }
 }
 
-impl<T: Copy> Lists<T> {
+impl<T: Copy> PackedLists<T> {
     /// Appends a list.
     pub(crate) fn push(&mut self, list: impl IntoIterator<Item = T>) {
         self.items.extend(list);
@@ -75,7 +75,7 @@ impl<T: Copy> Lists<T> {
     }
 }
 
-impl Lists<u32> {
+impl PackedLists<u32> {
     /// For each number below `items`, the numbers of the lists that it is in.
     pub(crate) fn inverse(&self, items: usize) -> Self {
         let pairs = self.iter().zip(0..).flat_map(|(list, number)| list.iter().map(move |&item| (item, number)));

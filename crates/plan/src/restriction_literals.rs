@@ -4,6 +4,14 @@
 //! What is restricted becomes a static predicate that must not hold: `excluded-from-CALL` of every object that may not
 //! take part in actions of this call, `unfit-for-SCHEMA` of objects whose types may not meet in it, `banned-SCHEMA` of
 //! the parameters of every banned instance of a schema.
+//!
+//! Our own planner gets the restrictions themselves, although it could be asked in this way too. Measured on 2026-11-26: in the
+//! laboratory's experiment with faults (1,065 plannings) plans, expansions and ground actions are the same both ways, and
+//! grounding takes a quarter longer with the compilation (2.0 s and 2.6 s in all). On seven PDDL problems with an excluded
+//! object or 20 bans expansions are the same or up to 7 % fewer, since interchangeable objects are still looked for. But two
+//! types that may not meet become a fact for every pair of their objects: 34,596 in a problem of logistics with 186 objects,
+//! whose grounding then takes 148 ms instead of 17; in a room of 10,000 objects it can be a hundred million. And imagination and
+//! explanation need the restrictions in any case, to say what may not be used.
 
 use std::collections::{BTreeMap, BTreeSet};
 

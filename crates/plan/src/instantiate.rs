@@ -1,4 +1,4 @@
-//! What a complete binding makes: a ground action or axiom, with what it reaches.
+//! From a complete binding to a ground action or axiom, and the facts that it reaches.
 
 use std::collections::BTreeSet;
 
@@ -10,7 +10,7 @@ use crate::pattern::{Compiled, CompiledEffect, Condition, Pattern, Source};
 use crate::reach::{Join, Pending, RawEffect, RawOp};
 
 impl Join<'_> {
-    pub(crate) fn emit(&mut self, schema: &Compiled<'_>, binding: &[Option<ObjectId>]) -> Result<(), Stop> {
+    pub(crate) fn add_instance(&mut self, schema: &Compiled<'_>, binding: &[Option<ObjectId>]) -> Result<(), Stop> {
         let Some((preconditions, negative)) = self.ground_condition(&schema.condition, binding) else {
             return Ok(());
         };
