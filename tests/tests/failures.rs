@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 
 use typelift::learn::{Learned, Options, evidence_of, learn};
-use typelift::model::{GroundAtom, GroundCall, Hierarchy, Observations, ParseConfig, Symbol, Unexplained, Unknown};
+use typelift::model::{
+    GroundAtom, GroundCall, Hierarchy, Observations, ParseConfig, RefusedMerges, Symbol, Unexplained, Unknown,
+};
 use typelift::world::{Dataset, Expected, Parser, Trace, TraceAction, Verdict};
 
 /// Cups, mugs and jars are vessels; they and shelves are things.
@@ -105,7 +107,7 @@ fn a_failure_that_only_the_merged_action_allows_keeps_two_actions_apart() {
     assert_eq!(names(&merged), ["WASH-vessel"]);
     let apart = learned(&evidence(&[cup.clone(), mug.clone(), jar]));
     assert_eq!(names(&apart), ["WASH-cup", "WASH-mug"]);
-    assert_eq!((apart.report.refused_merges, apart.report.failures_against, apart.report.failures), (1, 1, 1));
+    assert_eq!((apart.report.refused, apart.report.failures), (RefusedMerges { pairs: 1, failures: 1 }, 1));
     assert_eq!(names(&learned(&evidence(&[cup.clone(), mug.clone()]))), names(&merged), "taken out again, they merge");
 
     // What the merged action does not allow either says nothing: washing what is not dirty, or what is clean already, or

@@ -6,7 +6,9 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 use typelift::learn::{self, Actor, LearnError, Options, evidence_of, learn_evidence};
-use typelift::model::{ClusterKey, LearnedModel, LiftedAtom, Observations, SourceId, Symbol, Unexplained};
+use typelift::model::{
+    ClusterKey, LearnedModel, LiftedAtom, Observations, RefusedMerges, SourceId, Symbol, Unexplained,
+};
 use typelift::words::count;
 use typelift::world::{Dataset, ObjectTypes, Repeated, TrajectoryContext, Unlisted, read_dataset, write_file};
 
@@ -136,7 +138,7 @@ impl Learn {
             _ => Unlisted::AsListed,
         };
         let context = TrajectoryContext { types, unlisted };
-        let LearnedModel { model, parse, options, mut evidence } =
+        let LearnedModel { model, parse, options, mut evidence, .. } =
             beginning(self.into.as_ref(), self.types.as_ref(), ignore)?;
         let dataset = match self.traces.as_slice() {
             [] => Dataset { hierarchy: model.hierarchy, parse, ..Dataset::default() },
@@ -299,8 +301,8 @@ fn json_report(model: &LearnedModel, report: &learn::Report) -> Report {
         individual_actions: report.individual,
         generalized_actions: report.generalized,
         failures: report.failures,
-        refused_merges: report.refused_merges,
-        failures_against_merges: report.failures_against,
+        refused_merges: report.refused.pairs,
+        failures_against_merges: report.refused.failures,
         unexplained: report.unexplained,
         single_support: report.single_support,
         predicates: model.model.predicates.iter().map(|(name, types)| (name.clone(), types.len())).collect(),
@@ -309,11 +311,12 @@ fn json_report(model: &LearnedModel, report: &learn::Report) -> Report {
 }
 
 /// What to say of pairs of actions that were not merged, if there are any.
-pub(crate) fn refused_merges(report: &learn::Report) -> Option<String> {
-    let (refused, failures) = (report.refused_merges as u64, report.failures_against);
+pub(crate) fn refused_merges(refused: RefusedMerges) -> Option<String> {
+    let RefusedMerges { pairs, failures } = refused;
     let speak = if failures == 1 { "speaks" } else { "speak" };
-    (refused > 0)
-        .then(|| format!("{} not merged: {} {speak} against it", count(refused, "pair"), count(failures, "failure")))
+    (!refused.is_none()).then(|| {
+        format!("{} not merged: {} {speak} against it", count(pairs as u64, "pair"), count(failures, "failure"))
+    })
 }
 
 fn print_counts(out: &mut impl Write, model: &LearnedModel, report: &learn::Report) -> Result<(), Failure> {
@@ -325,7 +328,7 @@ fn print_counts(out: &mut impl Write, model: &LearnedModel, report: &learn::Repo
         let names = model.model.actions.iter().map(|action| action.name.as_str());
         writeln!(out, "{generalized}:\n  {}", wrapped(names, 2, 80))?;
     }
-    if let Some(line) = refused_merges(report) {
+    if let Some(line) = refused_merges(report.refused) {
         writeln!(out, "{line}")?;
     }
     if report.failures > 0 {

@@ -30,11 +30,17 @@ pub(crate) fn beginning(
     };
     if let Some((given, hierarchy)) = types {
         let agreed = learned.agrees(&hierarchy, &learned.parse);
-        agreed.map_err(|error| Failure::bad_input(format!("--types {}: {error}", given.display())))?;
+        agreed.map_err(|error| {
+            let hint = "Leave out --types: those of the model hold. Or learn from all traces anew.";
+            Failure::bad_input(format!("--types {}: {error}", given.display())).with_hint(hint)
+        })?;
     }
     if !ignore.is_empty() {
         let agreed = learned.agrees(&learned.model.hierarchy, &ParseConfig { ignore });
-        agreed.map_err(|error| Failure::bad_input(format!("--ignore: {error}")))?;
+        agreed.map_err(|error| {
+            let hint = "Leave out --ignore: what the model ignores is ignored. Or learn from all traces anew.";
+            Failure::bad_input(format!("--ignore: {error}")).with_hint(hint)
+        })?;
     }
     Ok(*learned)
 }
@@ -95,6 +101,7 @@ pub(crate) fn add(evidence: &mut Evidence, into: Option<&PathBuf>, shown: &Evide
             MergeError::ReadDifferently { .. } => {
                 "Give the same --problems, --objects, --closed or --open, or take it out with --forget first."
             }
+            MergeError::TwoArities { .. } => "Call it by another name in one of them, or give it as many arguments.",
             MergeError::UnknownSources => "Learn it anew from its traces.",
         };
         let place = into.map(|path| format!("{}: ", path.display())).unwrap_or_default();

@@ -3,7 +3,6 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use typelift::learn::{self, learn};
 use typelift::model::{LearnedModel, Source, SourceId, Symbol};
 use typelift::pddl::{ExportOptions, Level, export};
 use typelift::words::{count, describe_action, describe_axiom};
@@ -36,7 +35,7 @@ pub(crate) struct Show {
 
 impl Show {
     pub(crate) fn run(&self) -> Result<Exit, Failure> {
-        let LearnedModel { model, evidence, .. } = match read_model_input(&self.model, None)? {
+        let LearnedModel { model, evidence, refused, .. } = match read_model_input(&self.model, None)? {
             ModelInput::Learned(learned) => *learned,
             ModelInput::Given(domain) => domain.model.into(),
         };
@@ -67,10 +66,7 @@ impl Show {
                     count(model.predicates.len() as u64, "predicate"),
                     count(evidence.total().transitions, "transition"),
                 )?;
-                // A model of individual actions was never to be merged.
-                let again = learn(&model.hierarchy, &evidence.total(), &learn::Options::default());
-                let report = again.ok().map(|learned| learned.report).filter(|r| r.generalized == model.actions.len());
-                if let Some(line) = report.as_ref().and_then(refused_merges) {
+                if let Some(line) = refused_merges(refused) {
                     writeln!(out, "{line}\n")?;
                 }
                 for action in &model.actions {

@@ -14,7 +14,9 @@
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
-use typelift_model::{Hierarchy, LiftedAtom, NegativeKey, Observations, Support, Symbol, TypeId, effect_bijections};
+use typelift_model::{
+    Hierarchy, LiftedAtom, NegativeKey, Observations, RefusedMerges, Support, Symbol, TypeId, effect_bijections,
+};
 
 use crate::draft::Draft;
 use crate::score::{Failures, score_action};
@@ -38,9 +40,7 @@ pub(crate) struct Counts {
     /// Pairs whose generalization was scored.
     pub(crate) scored: usize,
     /// Pairs that could be merged in the end and are not, since failures speak against it.
-    pub(crate) refused: usize,
-    /// Those failures.
-    pub(crate) failures: u64,
+    pub(crate) refused: RefusedMerges,
 }
 
 /// Generalizes pairs until nothing changes.
@@ -64,13 +64,13 @@ pub(crate) fn to_fixed_point(
             group[i] = generalized;
             group.remove(j);
         };
-        counts.refused += refused.len();
+        counts.refused.pairs += refused.len();
         for (key, times) in refused.iter().flat_map(|merged| failures.allowed_by(merged, hierarchy)) {
             let most = speak_against.entry(key).or_default();
             *most = times.max(*most);
         }
     }
-    counts.failures = speak_against.values().sum();
+    counts.refused.failures = speak_against.values().sum();
     (groups.into_values().flatten().collect(), counts)
 }
 

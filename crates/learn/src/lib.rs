@@ -35,7 +35,9 @@ mod predicates;
 mod score;
 
 use thiserror::Error;
-use typelift_model::{ActionModel, Evidence, Hierarchy, LearnedModel, Observations, ParseConfig, Symbol};
+use typelift_model::{
+    ActionModel, Evidence, Hierarchy, LearnedModel, Observations, ParseConfig, RefusedMerges, Symbol,
+};
 use typelift_world::{Dataset, Trace};
 
 pub use cluster::observe;
@@ -56,9 +58,7 @@ pub struct Report {
     /// Pairs of actions whose generalization was scored.
     pub scored_pairs: usize,
     /// Pairs of actions of the model that were not merged, since failures speak against it.
-    pub refused_merges: usize,
-    /// The failures that do.
-    pub failures_against: u64,
+    pub refused: RefusedMerges,
     /// Transitions that were not executed, or changed nothing.
     pub failures: u64,
     /// Transitions of which nothing explains what changed.
@@ -123,7 +123,8 @@ pub fn learn_evidence(
     options: &Options,
 ) -> Result<(LearnedModel, Report), LearnError> {
     let Learned { model, report } = learn(hierarchy, &evidence.total(), options)?;
-    Ok((LearnedModel { model, parse: parse.clone(), options: options.clone(), evidence }, report))
+    let refused = report.refused;
+    Ok((LearnedModel { model, parse: parse.clone(), options: options.clone(), evidence, refused }, report))
 }
 
 /// Algorithm 1 after clustering: a pure function of what was observed.
@@ -147,8 +148,7 @@ pub fn learn(hierarchy: &Hierarchy, observations: &Observations, options: &Optio
         individual,
         generalized: actions.len(),
         scored_pairs: counts.scored,
-        refused_merges: counts.refused,
-        failures_against: counts.failures,
+        refused: counts.refused,
         failures: observations.failures(),
         unexplained: observations.unexplained.values().map(|(count, _)| count).sum(),
         single_support: actions.iter().filter(|action| action.observations() == 1).count(),

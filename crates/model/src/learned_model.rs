@@ -17,6 +17,26 @@ pub struct LearnedModel {
     pub options: LearnOptions,
     /// What the actions rest on.
     pub evidence: Evidence,
+    /// What was not merged.
+    pub refused: RefusedMerges,
+}
+
+/// Pairs of actions that could be merged and are not. It follows from the evidence, and is kept so that it need not be
+/// learned again to be told of.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct RefusedMerges {
+    /// How many pairs of actions of the model there are.
+    pub pairs: usize,
+    /// How many failures speak against merging them.
+    pub failures: u64,
+}
+
+impl RefusedMerges {
+    /// Whether there are none.
+    pub fn is_none(&self) -> bool {
+        self.pairs == 0
+    }
 }
 
 /// What is learned, and how.

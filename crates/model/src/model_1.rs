@@ -11,7 +11,7 @@ use crate::model_error::at_most;
 use crate::model_file::{ActionFile, AxiomFile, ModelFile, PddlFile, ProvenanceFile};
 use crate::{
     Cluster, ClusterKey, Evidence, LearnOptions, LearnedModel, MODEL_FORMAT, MOST_PARAMETERS, ModelFileError,
-    NegativeKey, ParseConfig, Symbol, Unexplained, Witness,
+    NegativeKey, ParseConfig, RefusedMerges, Symbol, Unexplained, Witness,
 };
 
 #[derive(Deserialize)]
@@ -88,6 +88,7 @@ impl ModelFile1 {
             actions: self.actions,
             axioms: self.axioms,
             evidence,
+            refused_merges: RefusedMerges::default(),
             pddl: PddlFile::default(),
         };
         (file, self.predicates)

@@ -8,7 +8,8 @@ use serde::{Deserialize, Serialize};
 use crate::evidence_file::EvidenceFile;
 use crate::{
     ActionSchema, Axiom, ClusterKey, Effect, GroundAtom, Hierarchy, LearnOptions, LearnedModel, LiftedAtom, Literal,
-    MODEL_FORMAT, ModelFileError, Parameter, ParseConfig, Provenance, Replacement, Support, Symbol, TypeId,
+    MODEL_FORMAT, ModelFileError, Parameter, ParseConfig, Provenance, RefusedMerges, Replacement, Support, Symbol,
+    TypeId,
 };
 
 #[derive(Serialize, Deserialize)]
@@ -37,6 +38,9 @@ pub(crate) struct ModelFile {
     pub(crate) axioms: Vec<AxiomFile>,
     #[serde(default)]
     pub(crate) evidence: EvidenceFile,
+    /// Pairs of actions that could be merged and are not, since failures speak against it.
+    #[serde(default, skip_serializing_if = "RefusedMerges::is_none")]
+    pub(crate) refused_merges: RefusedMerges,
     /// PDDL names, by the model's names; written for other tools, made anew when the model is read.
     #[serde(default)]
     pub(crate) pddl: PddlFile,
@@ -193,6 +197,7 @@ impl LearnedModel {
             axioms: model.axioms.iter().map(|a| write_axiom(a, &model.hierarchy)).collect(),
             actions: model.actions.iter().map(|a| write_action(a, &model.hierarchy, &clusters)).collect(),
             evidence: EvidenceFile::of(&self.evidence, &total),
+            refused_merges: self.refused,
             pddl: PddlFile {
                 types: map(&names.types),
                 predicates: map(&names.predicates),

@@ -87,7 +87,7 @@ impl LearnedModel {
         let axioms = file.axioms.into_iter().map(|axiom| read_axiom(axiom, &hierarchy)).collect::<Result<_, _>>()?;
         let model = ActionModel { hierarchy, predicates, actor, constants, actions, axioms };
         drop(total);
-        Ok(Self { model, parse: file.parse, options: file.options, evidence })
+        Ok(Self { model, parse: file.parse, options: file.options, evidence, refused: file.refused_merges })
     }
 }
 

@@ -5,21 +5,8 @@ use std::fmt;
 use std::marker::PhantomData;
 
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, Visitor};
-use typelift_model::{Symbol, json_message};
-
-/// The message of an error without its place.
-pub(crate) fn message(error: &serde_json::Error) -> String {
-    let text = json_message(error);
-    match text.as_str() {
-        "data did not match any variant of untagged enum Value" => {
-            "an attribute is true, false, a word, a number or a list of numbers".to_owned()
-        }
-        "data did not match any variant of untagged enum Relation" => {
-            "a relation is to an entity's name, null or a list of names".to_owned()
-        }
-        _ => text,
-    }
-}
+use typelift_model::Symbol;
+pub(crate) use typelift_model::json_message as message;
 
 /// What to do about an error at the end of this text, if that is known.
 pub(crate) fn hint(error: &serde_json::Error, text: &str) -> Option<String> {

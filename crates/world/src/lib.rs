@@ -25,6 +25,7 @@ mod trace_line;
 mod trace_reader;
 mod trace_writer;
 mod trajectory_file;
+mod values;
 mod verdict;
 
 pub use dataset::{Dataset, Record, Repeated, Trace, TraceAction, TraceHeader, Transition};

@@ -8,7 +8,7 @@ use typelift_model::{GroundAtom, Pattern, Symbol};
 use crate::json::distinct_map;
 
 /// An attribute's value.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(untagged)]
 pub enum Value {
@@ -23,7 +23,7 @@ pub enum Value {
 }
 
 /// A relation of one entity to others.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(untagged)]
 pub enum Relation {

@@ -131,11 +131,11 @@ fn malformed_lines_are_refused_with_their_place() {
         ("{\"state\":{\"entities\":[]}} x", "a.jsonl:2:27: nothing may follow after the end of the JSON text"),
         (
             "{\"state\":{\"entities\":[{\"id\":\"a\",\"type\":\"block\",\"attributes\":{\"x\":{}}}]}}",
-            "a.jsonl:2:68: an attribute is true, false, a word, a number or a list of numbers",
+            "a.jsonl:2:67: an attribute is true, false, a word, a number or a list of numbers",
         ),
         (
             "{\"state\":{\"entities\":[{\"id\":\"a\",\"type\":\"block\",\"relations\":{\"x\":1}}]}}",
-            "a.jsonl:2:66: a relation is to an entity's name, null or a list of names",
+            "a.jsonl:2:65: a relation is to an entity's name, null or a list of names",
         ),
         ("{\"state\":{\"objects\":{\"a\":\"block\",\"a\":\"arm\"}}}", "a.jsonl:2:36: `a` stands here twice"),
         ("{\"state\":{\"entities\":[{\"id\":\"a\"}]}}", "a.jsonl:2:32: missing field `type`"),

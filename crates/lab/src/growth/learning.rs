@@ -40,6 +40,7 @@ pub(crate) fn measure(transitions: u64, seconds: f64) -> Measurement {
         options: Options::default(),
         // One long trace.
         evidence: Evidence::from_iter([(SourceId::new([0; 32]), Symbol::new("play"), evidence)]),
+        refused: report.refused,
     };
     let model_bytes = learned.to_json().map_or(0, |text| text.len() as u64);
     Measurement {

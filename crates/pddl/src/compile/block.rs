@@ -2,29 +2,14 @@
 //!
 //! Its variables are numbered, each quantifier's anew, so that no two are confused whatever their names are.
 
-use std::collections::BTreeMap;
-
-use typelift_model::{ArgumentTypes, Atom, Hierarchy, LiftedAtom, Literal, Parameter, Symbol, Term, TypeId};
+use typelift_model::{Atom, LiftedAtom, Literal, Parameter, Symbol, Term, TypeId};
 
 use super::error::{CompileError, CompilePart};
-use super::invent::Inventions;
-use super::limits::Limits;
+use super::inventions::Inventions;
 use super::names::FreshNames;
 use super::normal::Normal;
+use super::world::World;
 use crate::{Formula, PddlAtom, PddlTerm, Typed};
-
-/// What is known outside of the block.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct World<'w> {
-    /// The types.
-    pub(super) hierarchy: &'w Hierarchy,
-    /// The objects that may be mentioned.
-    pub(super) objects: &'w BTreeMap<Symbol, TypeId>,
-    /// The predicates with the types of their arguments.
-    pub(super) predicates: &'w ArgumentTypes,
-    /// How large the model may become.
-    pub(super) limits: Limits,
-}
 
 /// A variable: a name that no other of its block has, and the types of which it may be, none below another.
 #[derive(Debug, Clone)]

@@ -4,11 +4,12 @@ use std::collections::BTreeSet;
 
 use typelift_model::{ActionModel, Atom, Axiom, Literal, Symbol, Term};
 
-use super::block::{Block, Visible, World};
+use super::block::{Block, Visible};
 use super::case::Case;
 use super::error::{CompileError, CompilePart};
-use super::invent::Inventions;
+use super::inventions::Inventions;
 use super::strata::{dependencies, strata};
+use super::world::World;
 use crate::{Derived, Domain, Formula};
 
 /// Adds the axioms of a condition of a derived predicate.

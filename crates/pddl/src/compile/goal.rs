@@ -4,12 +4,13 @@ use std::collections::BTreeSet;
 
 use typelift_model::{ActionModel, Atom, Goal, GroundAtom, Literal, Symbol};
 
-use super::block::{Block, Visible, World};
+use super::block::{Block, Visible};
 use super::case::Case;
 use super::error::{CompileError, CompilePart};
 use super::expand::{Expansion, ground};
-use super::invent::Inventions;
+use super::inventions::Inventions;
 use super::normal::Normal;
+use super::world::World;
 use crate::Formula;
 
 /// Compiles a goal for this initial state. Where it is clear that it can never hold, and no atom of the text says so, it

@@ -1,56 +1,15 @@
-//! Derived predicates that stand for parts of conditions.
+//! Derived predicates for parts of conditions: their axioms, from the cases of which one is to hold.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use typelift_model::{ActionModel, Atom, Axiom, LiftedAtom, Literal, MOST_PARAMETERS, Parameter, Symbol, Term, TypeId};
+use typelift_model::{Atom, Axiom, LiftedAtom, Literal, MOST_PARAMETERS, Parameter, Symbol, Term};
 
-use super::block::{Block, World};
+use super::block::Block;
 use super::case::Case;
 use super::error::CompileError;
-use super::names::FreshNames;
+use super::inventions::{Rule, rule};
 use super::solve::solve;
-
-/// An axiom but for its predicate and stratum: the types of its parameters, the head's arguments, the body.
-type Rule = (Vec<TypeId>, Vec<Term>, Vec<Literal>);
-
-/// The derived predicates that were made, and all axioms.
-#[derive(Debug)]
-pub(super) struct Inventions {
-    names: FreshNames,
-    /// What was invented.
-    predicates: BTreeSet<Symbol>,
-    /// The axioms, of stated and of invented predicates; the strata are still to be found.
-    pub(super) axioms: Vec<Axiom>,
-    known: BTreeMap<Vec<Rule>, Symbol>,
-    /// The literals that were gone through.
-    literals: usize,
-}
-
-impl Inventions {
-    /// None yet, for a model that uses these names for predicates and functions.
-    pub(super) fn new(used: impl IntoIterator<Item = Symbol>) -> Self {
-        let names = FreshNames::with(used);
-        Self { names, predicates: BTreeSet::new(), axioms: Vec::new(), known: BTreeMap::new(), literals: 0 }
-    }
-
-    /// A new predicate without axioms.
-    pub(super) fn predicate(&mut self, base: &str) -> Symbol {
-        let name = self.names.numbered(base, 1);
-        self.predicates.insert(name.clone());
-        name
-    }
-
-    /// Writes what was invented into the model.
-    pub(super) fn finish(self, model: &mut ActionModel) {
-        model.axioms.extend(self.axioms);
-        let mut uses = model.argument_uses();
-        for name in self.predicates {
-            // One that nothing uses is of a goal that can never hold, and has no arguments.
-            let types = uses.remove(&name).unwrap_or_default();
-            model.predicates.insert(name, types);
-        }
-    }
-}
+use super::world::World;
 
 impl Block<'_> {
     /// What a case counts besides its literals.
@@ -157,8 +116,4 @@ pub(super) fn renumbered(literals: &[Literal], variables: &[u32]) -> Vec<Literal
         object @ Term::Const(_) => object.clone(),
     };
     literals.iter().map(|literal| Literal { atom: literal.atom.map(term), positive: literal.positive }).collect()
-}
-
-fn rule(axiom: &Axiom) -> Rule {
-    (axiom.parameters.iter().map(|p| p.ty).collect(), axiom.head.args.clone(), axiom.body.clone())
 }

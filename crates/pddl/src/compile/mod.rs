@@ -18,6 +18,7 @@ mod error;
 mod expand;
 mod goal;
 mod invent;
+mod inventions;
 #[cfg(test)]
 mod law;
 mod limits;
@@ -28,6 +29,7 @@ mod solve;
 mod strata;
 #[cfg(test)]
 mod tests;
+mod world;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -35,10 +37,10 @@ use typelift_model::{ActionModel, ArgumentTypes, Cost, GroundAtom, Hierarchy, RO
 
 pub use error::{CompileError, CompilePart};
 
-use self::block::World;
-use self::invent::Inventions;
+use self::inventions::Inventions;
 use self::limits::Limits;
 use self::names::FreshNames;
+use self::world::World;
 use crate::{Amount, Domain, PddlEffect, Problem, Typed};
 
 /// The function that the total cost is.

@@ -8,13 +8,15 @@ use typelift_model::{
     ActionSchema, Cost, LiftedAtom, LiftedCall, Literal, MOST_PRECONDITIONS, Parameter, Provenance, Symbol, Term,
 };
 
-use super::block::{Block, Visible, World};
+use super::block::{Block, Visible};
 use super::case::Case;
 use super::effect::{Changes, effects_of};
 use super::error::{CompileError, CompilePart};
-use super::invent::{Inventions, renumbered};
+use super::invent::renumbered;
+use super::inventions::Inventions;
 use super::names::FreshNames;
 use super::solve::{Solved, solve};
+use super::world::World;
 use crate::Action;
 
 /// The action that is compiled.

@@ -5,8 +5,8 @@
 
 use typelift_model::{Literal, Parameter, Term, TypeId};
 
-use super::block::World;
 use super::normal::equality;
+use super::world::World;
 
 /// A conjunction without equalities that could be solved.
 #[derive(Debug, Clone, PartialEq, Eq)]
