@@ -15,7 +15,7 @@ use typelift::imagine::{self, Guard};
 use typelift::model::{ActionModel, Budget};
 use typelift::plan::TieOrder;
 use typelift_kitchen::{KitchenTask, tasks};
-use typelift_lab::{Conduct, TableOptions, Variant, Verdict, published, table};
+use typelift_lab::{Comparison, RunnerOptions, TableOptions, Variant, published, table};
 use typelift_tests::{kitchen_model, paper_options, solve};
 
 /// `#p` and `|p|`; `None` where no plan was found.
@@ -68,8 +68,8 @@ fn every_cell() {
     assert_eq!(options.limits.max_expansions, EXPANSIONS);
     let folder = tempfile::tempdir().expect("a folder");
     let never = Arc::new(|| false);
-    let conduct = Conduct { folder: folder.path(), fresh: false, jobs: 2, stopper: never, progress: &() };
-    let result = table(&options, &conduct).expect("the simulator works");
+    let runner = RunnerOptions { folder: folder.path(), fresh: false, jobs: 2, stopper: never, progress: &() };
+    let result = table(&options, &runner).expect("the simulator works");
     assert_eq!(result.transitions, 68);
     assert_eq!(result.actions.values().copied().collect::<Vec<_>>(), [13, 13, 39, 39]);
     assert_eq!(result.records.len() as u64, 24 * 4 * runs);
@@ -79,7 +79,7 @@ fn every_cell() {
         assert_eq!(found.is_some(), published_cell(&run.task, run.variant).is_some(), "{run}");
     }
     // Where ours differs it is with fewer proposals or a shorter plan.
-    let counts = [Verdict::Equal, Verdict::Better, Verdict::Worse].map(|verdict| result.count(verdict));
+    let counts = [Comparison::Equal, Comparison::Better, Comparison::Worse].map(|verdict| result.count(verdict));
     assert_eq!(counts, [96 - DIFFERENCES.len(), DIFFERENCES.len(), 0]);
     let text = result.markdown_cells();
     println!("{runs} runs\n{text}");

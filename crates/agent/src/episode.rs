@@ -52,7 +52,7 @@ pub enum EpisodeError {
 
 /// One task being solved.
 ///
-/// It has no thread, clock or world of its own: whoever drives it does what a [`Command`] says and reports with an
+/// It has no thread, clock or world of its own: its driver does what a [`Command`] says and reports with an
 /// [`Input`], which names the command that it answers.
 ///
 /// ```
@@ -78,7 +78,7 @@ pub struct Episode {
     pub(crate) experience: Experience,
     /// The number of this task in the experience.
     pub(crate) task: u64,
-    /// The instance of the world that names belong to; unnamed if nobody says.
+    /// The instance of the world that names belong to; unnamed if it was not said.
     pub(crate) instance: Symbol,
     pub(crate) phase: Phase,
     /// The command that stands.
@@ -131,7 +131,7 @@ impl Episode {
         &self.experience
     }
 
-    /// The instance of the world in which the episode acts; unnamed if nobody has said.
+    /// The instance of the world in which the episode acts; unnamed if it was not said.
     pub fn instance(&self) -> &Symbol {
         &self.instance
     }

@@ -1,4 +1,4 @@
-//! What happens during an episode, for whoever watches.
+//! What happens during an episode, for its observers.
 
 use serde::Serialize;
 use typelift_model::{GroundAtom, GroundCall, Plan, Symbol};

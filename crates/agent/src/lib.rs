@@ -1,7 +1,7 @@
 //! Acting with a learned model: propose a plan, execute it step by step, compare what happened with what was
 //! expected, exclude what failed, imagine again, replan, remember.
 //!
-//! An [`Episode`] is a state machine without a thread, a clock or a world of its own: whoever drives it does what the
+//! An [`Episode`] is a state machine without a thread, a clock or a world of its own: its driver does what the
 //! [`Command`] says and reports with an [`Input`], which names the command that it answers. A page, a notebook or a robot's own loop can drive it; [`run`] drives
 //! it over a [`World`](typelift_world::World).
 #![deny(missing_docs)]

@@ -12,7 +12,7 @@ use crate::event::{Event, Observer};
 use crate::objection::Objection;
 use crate::turn::{Command, Input};
 
-/// What whoever is asked says of a plan.
+/// The answer of the person who is asked about a plan.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Confirmation {
     /// Execute it.

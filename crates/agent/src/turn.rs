@@ -1,4 +1,4 @@
-//! What passes between an episode and whoever drives it.
+//! What passes between an episode and its driver.
 //!
 //! Each command carries an id that its answer echoes. What answers another command than the one that stands changes
 //! nothing: an approval counts for the plan that was shown, a result for the action that was begun, and for no other.
@@ -133,7 +133,7 @@ pub enum Input<S = State> {
         /// The id of the proposal that was shown.
         id: CommandId,
     },
-    /// Whoever executes declined the action; with what is observed now. The observation decides: if what was
+    /// The environment declined the action; with what is observed now. The observation decides: if what was
     /// expected happened all the same, the step succeeded.
     Refused {
         /// The id of the command that is answered.
@@ -143,7 +143,7 @@ pub enum Input<S = State> {
         /// What is observed now.
         state: S,
     },
-    /// Whoever executes did not finish in time, but can be observed: for a robot's own loop. [`run`](crate::run) treats a
+    /// The action was not finished in time, but the world can be observed: for a robot's own loop. [`run`](crate::run) treats a
     /// world that does not answer as failed.
     TimedOut {
         /// The id of the command that is answered.

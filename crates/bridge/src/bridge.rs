@@ -67,7 +67,7 @@ impl Bridge {
         Self::spawn_stoppable(command_line, options, stderr, |_| ())
     }
 
-    /// The same, with a handle for whoever may want to stop it before it has said who it is.
+    /// The same, with a handle that can stop it before it has said what it is.
     ///
     /// # Errors
     /// [`BridgeError`] if it cannot be started, or is not an environment, or was stopped.
@@ -251,7 +251,7 @@ impl Bridge {
             self.conversation.stderr.finish(GRACE);
             self.over = Some("it was closed".to_owned());
         }
-        // Whoever ends without a word when it is to end does what was asked.
+        // A child that ends without a word when told to end does what was asked.
         match answered {
             Err(error) if matches!(*error.failure, Failure::Died { status: Some(s), .. } if s.success()) => Ok(()),
             answered => answered,

@@ -15,7 +15,7 @@
 //! |--------------|------------------------------------------------------------------------|
 //! | `bridge.rs`  | the conversation: one request, one answer, each within its time         |
 //! | `process.rs` | the child and everything that it started: watched, ended, reaped       |
-//! | `pipes.rs`   | the threads that read and write, so that nobody waits for a pipe        |
+//! | `pipes.rs`   | the threads that read and write, so that no pipe blocks anything        |
 //! | `answer.rs`  | reads an answer, and says where one is malformed                        |
 //! | `error.rs`   | what can go wrong, with what was sent and what came back                |
 //! | `planner_command.rs` | a planner: writes the task as PDDL, waits, reads the plan       |

@@ -55,7 +55,7 @@ impl Conversation {
         let thread = |name: &str| thread::Builder::new().name(format!("environment {name}"));
         thread("input").spawn(move || write(stdin, &to_write, &tell_too))?;
         thread("output").spawn(move || read(BufReader::new(stdout), line_limit, &tell))?;
-        let shared = Arc::new(Mutex::new(Said { name: name.to_owned(), last: VecDeque::new() }));
+        let shared = Arc::new(Mutex::new(LastLines { name: name.to_owned(), last: VecDeque::new() }));
         let (ending, ended) = mpsc::channel();
         let theirs = Arc::clone(&shared);
         thread("errors").spawn(move || pass_on(BufReader::new(stderr), &theirs, sink, ending))?;
@@ -67,7 +67,7 @@ impl Conversation {
 fn write(mut stdin: impl Write, requests: &Receiver<Vec<u8>>, tell: &SyncSender<Heard>) {
     for request in requests {
         if stdin.write_all(&request).and_then(|()| stdin.flush()).is_err() {
-            // Nobody listens if the bridge is gone.
+            // The receiver is gone if the bridge is.
             let _ = tell.send(Heard::InputClosed);
             return;
         }
@@ -95,18 +95,20 @@ fn read(mut stdout: impl BufRead, limit: usize, tell: &SyncSender<Heard>) {
     }
 }
 
+/// The last lines that a child wrote to standard error.
 #[derive(Debug)]
-struct Said {
+struct LastLines {
+    /// What the child is called.
     name: String,
     last: VecDeque<String>,
 }
 
-fn lock(said: &Mutex<Said>) -> MutexGuard<'_, Said> {
-    said.lock().unwrap_or_else(PoisonError::into_inner)
+fn lock(lines: &Mutex<LastLines>) -> MutexGuard<'_, LastLines> {
+    lines.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Passes on lines of standard error, and keeps the last ones. `_ending` is dropped at the end.
-fn pass_on(mut stderr: impl BufRead, said: &Mutex<Said>, mut sink: Sink, _ending: Sender<()>) {
+fn pass_on(mut stderr: impl BufRead, lines: &Mutex<LastLines>, mut sink: Sink, _ending: Sender<()>) {
     loop {
         let mut line = Vec::new();
         match (&mut stderr).take(PIECE).read_until(b'\n', &mut line) {
@@ -116,12 +118,12 @@ fn pass_on(mut stderr: impl BufRead, said: &Mutex<Said>, mut sink: Sink, _ending
         let text = String::from_utf8_lossy(&line);
         let text = text.trim_end_matches(['\n', '\r']);
         let shown = {
-            let mut said = lock(said);
-            if said.last.len() == KEPT {
-                said.last.pop_front();
+            let mut lines = lock(lines);
+            if lines.last.len() == KEPT {
+                lines.last.pop_front();
             }
-            said.last.push_back(shorten(text));
-            format!("[{}] {text}", said.name)
+            lines.last.push_back(shorten(text));
+            format!("[{}] {text}", lines.name)
         };
         sink(&shown);
     }
@@ -130,7 +132,7 @@ fn pass_on(mut stderr: impl BufRead, said: &Mutex<Said>, mut sink: Sink, _ending
 /// What a child writes to standard error.
 #[derive(Debug)]
 pub(crate) struct Stderr {
-    shared: Arc<Mutex<Said>>,
+    shared: Arc<Mutex<LastLines>>,
     ended: Receiver<()>,
 }
 
@@ -176,13 +178,13 @@ mod tests {
 
     #[test]
     fn lines_of_standard_error() {
-        let said = Mutex::new(Said { name: "shop".to_owned(), last: VecDeque::new() });
+        let last = Mutex::new(LastLines { name: "shop".to_owned(), last: VecDeque::new() });
         let (lines, passed_on) = mpsc::channel();
         let (ending, ended) = mpsc::channel();
         let sink = Box::new(move |line: &str| lines.send(line.to_owned()).expect("received"));
-        pass_on(&b"one\r\n\ntwo\xff\n"[..], &said, sink, ending);
+        pass_on(&b"one\r\n\ntwo\xff\n"[..], &last, sink, ending);
         assert_eq!(passed_on.iter().collect::<Vec<_>>(), ["[shop] one", "[shop] ", "[shop] two\u{fffd}"]);
         assert!(ended.recv().is_err());
-        assert_eq!(lock(&said).last, ["one", "", "two\u{fffd}"]);
+        assert_eq!(lock(&last).last, ["one", "", "two\u{fffd}"]);
     }
 }

@@ -143,7 +143,7 @@ impl Reaped {
         use rustix::process::{Signal, kill_process_group};
         let signal = if kill { Signal::KILL } else { Signal::TERM };
         if let Some(pid) = self.pid().filter(|_| !self.reaped) {
-            // It fails if nobody is left in the group, which is what is wanted.
+            // It fails if no process is left in the group, which is what is wanted.
             let _ = kill_process_group(pid, signal);
         }
     }

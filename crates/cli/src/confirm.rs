@@ -1,4 +1,4 @@
-//! `run --confirm`: whoever is at the terminal is asked before a plan is executed.
+//! `run --confirm`: the person at the terminal is asked before a plan is executed.
 
 use std::io::IsTerminal;
 use std::sync::mpsc::{self, RecvTimeoutError};
@@ -95,14 +95,14 @@ fn read(answer: &str, plan: &Plan, model: &ActionModel, usual: usize) -> Option<
     Some(Confirmation::Reject { step, objection, reason: format!("rejected by a person{because}") })
 }
 
-/// A line from whoever is at the terminal. None at its end, or as soon as Ctrl-C is pressed: a line is waited for in
+/// A line from the person at the terminal. None at its end, or as soon as Ctrl-C is pressed: a line is waited for in
 /// another thread, since nothing else ends that.
 fn answer(interrupt: &Interrupt) -> Option<String> {
     let (sender, receiver) = mpsc::channel();
     thread::spawn(move || {
         let mut line = String::new();
         let read = std::io::stdin().read_line(&mut line);
-        // Nobody waits any more after Ctrl-C.
+        // After Ctrl-C the answer is no longer awaited.
         let _ = sender.send(read.is_ok_and(|bytes| bytes > 0).then_some(line));
     });
     loop {

@@ -38,7 +38,7 @@ impl Failure {
         self
     }
 
-    /// Prints it, unless it is only that nobody reads on.
+    /// Prints it, unless standard output was merely closed.
     pub(crate) fn report(&self) -> Exit {
         if self.exit != Exit::Success {
             anstream::eprintln!("{ERROR}error{ERROR:#}: {}", printable_lines(&self.message));

@@ -102,7 +102,7 @@ impl Learn {
         let inputs = self.traces.iter().chain(&self.types).chain(&self.problems).chain(&self.objects);
         keep_inputs(output.map(PathBuf::as_path), inputs)?;
         let (dataset, known, model, report) = within(clock, self.limits, || self.learn())?;
-        // First, so that the model is there also if nobody reads what is printed.
+        // First, so that the model is written even if standard output is closed.
         if let Some(path) = output {
             write_file(path, model.to_json()?.as_bytes())?;
         }

@@ -60,7 +60,7 @@ pub(crate) struct Plan {
 }
 
 /// What there is when the first search has ended.
-struct Begun {
+struct FirstAnswer {
     model: ActionModel,
     task: Task,
     output: Option<PathBuf>,
@@ -74,8 +74,8 @@ impl Plan {
         let interrupt = Interrupt::install()?;
         let memory = memory_held_from_now();
         let budget = self.planning.limits.budget(clock, &interrupt, None);
-        let Begun { model, task, output, read, proposal } = self.begin_watched(clock, &budget, quiet)?;
-        // Whoever waits for the answer need not wait for the memory to be freed.
+        let FirstAnswer { model, task, output, read, proposal } = self.begin_watched(clock, &budget, quiet)?;
+        // The answer need not wait for the memory to be freed.
         let mut proposal = match proposal {
             Ok(proposal) => ManuallyDrop::new(proposal),
             Err(cut) => return say_stop(cut, self.planning.json, clock.elapsed() - read),
@@ -94,7 +94,7 @@ impl Plan {
             if !self.planning.json {
                 let took = clock.elapsed() - read;
                 if let Err(failure) = self.print(&mut out, number, &plan, &proposal, &model, took) {
-                    // Nobody reads on; the file is wanted all the same.
+                    // Standard output is closed; the file is wanted all the same.
                     self.write_plans(output.as_deref(), &plans, &proposal.model, &task)?;
                     return Err(failure);
                 }
@@ -131,17 +131,17 @@ impl Plan {
 
     /// Reads, grounds, and searches for the first plan. A watchdog ends the program if reading takes more than is allowed;
     /// somebody else's planner is ended by whom it was started.
-    fn begin_watched(&self, clock: Clock, budget: &Budget, quiet: bool) -> Result<Begun, Failure> {
+    fn begin_watched(&self, clock: Clock, budget: &Budget, quiet: bool) -> Result<FirstAnswer, Failure> {
         let json = self.planning.json;
         let limits = if self.planning.planner.is_given() { Limits::default() } else { self.planning.limits.limits };
         let last_words = move |stop| {
-            // There is nobody left to tell if printing fails.
+            // If printing fails, that cannot be printed either.
             say_stop(stop, json, clock.elapsed()).unwrap_or(stop.into())
         };
         watched(clock, limits, last_words, || self.begin(clock, budget, quiet))
     }
 
-    fn begin(&self, clock: Clock, budget: &Budget, quiet: bool) -> Result<Begun, Failure> {
+    fn begin(&self, clock: Clock, budget: &Budget, quiet: bool) -> Result<FirstAnswer, Failure> {
         let model = &self.planning.model;
         keep_inputs(self.output.as_deref(), model.files().chain([&self.task]))?;
         let input = model.read()?;
@@ -155,7 +155,7 @@ impl Plan {
             Err(ProposeError::Stopped(stop)) => Err(stop),
             proposal => Ok(proposal?),
         };
-        Ok(Begun { model, task, output, read, proposal })
+        Ok(FirstAnswer { model, task, output, read, proposal })
     }
 
     fn options(&self, is_given: bool) -> Result<Options, Failure> {

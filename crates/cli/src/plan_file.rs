@@ -30,7 +30,7 @@ pub(crate) fn plan_file(plan: &Plan, model: &ActionModel, state: &State) -> Resu
 }
 
 /// What the lines of a plan file say in the model's names. A name that the model does not have stands for itself:
-/// whoever replays the plan says so.
+/// replaying the plan reports it.
 pub(crate) fn calls_of_plan(
     lines: &[PlanLine],
     model: &ActionModel,

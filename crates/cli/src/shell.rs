@@ -40,7 +40,7 @@ impl Completions {
     pub(crate) fn run(&self) -> Result<Exit, Failure> {
         let mut command = Arguments::command();
         let name = command.get_name().to_owned();
-        // Into memory first: clap's crate panics where nobody reads on.
+        // Into memory first: clap's crate panics if standard output is closed.
         let mut script = Vec::new();
         clap_complete::generate(self.shell, &mut command, name, &mut script);
         io::stdout().write_all(&script)?;

@@ -3,9 +3,9 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use typelift::model::{LearnedModel, Source, SourceId, Symbol};
+use typelift::model::{ActionModel, Evidence, LearnedModel, Source, SourceId, Symbol};
 use typelift::pddl::{ExportOptions, Level, export};
-use typelift::words::{count, describe_action, describe_axiom};
+use typelift::words::{Description, count, describe_action, describe_axiom};
 
 use crate::exit::Exit;
 use crate::failure::{Failure, or_one_of};
@@ -31,6 +31,9 @@ pub(crate) struct Show {
     /// Print the model as a PDDL domain
     #[arg(long)]
     pddl: bool,
+    /// Print the same as a JSON list: a description of each action and axiom, or each trace with --sources
+    #[arg(long, conflicts_with = "pddl")]
+    json: bool,
 }
 
 impl Show {
@@ -47,43 +50,67 @@ impl Show {
             return Ok(Exit::Success);
         }
         if self.sources {
-            let mut sources: Vec<(&SourceId, &Source)> = evidence.sources().iter().collect();
-            sources.sort_by_key(|(id, source)| (&source.name, *id));
-            for (id, Source { name, transitions }) in sources {
-                writeln!(out, "{}  {:>16}  {name}", id.short(), count(*transitions, "transition"))?;
-            }
-            return Ok(Exit::Success);
+            return self.list_sources(&mut out, &evidence);
         }
-        match &self.action {
-            None => {
-                let h = &model.hierarchy;
-                let actor = model.actor.map_or("nobody".to_owned(), |ty| h.name(ty).to_string());
-                writeln!(
-                    out,
-                    "{}, {}, {}, from {}; {actor} acts\n",
-                    count(model.actions.len() as u64, "action"),
-                    count(h.len() as u64 - 1, "type"),
-                    count(model.predicates.len() as u64, "predicate"),
-                    count(evidence.total().transitions, "transition"),
-                )?;
-                if let Some(line) = refused_merges(refused) {
-                    writeln!(out, "{line}\n")?;
-                }
-                for action in &model.actions {
-                    writeln!(out, "{}", described(&describe_action(action, &model, None)))?;
-                }
-                for axiom in &model.axioms {
-                    writeln!(out, "{}", described(&describe_axiom(axiom, &model)))?;
-                }
-            }
+        let actions: Vec<Description> = match &self.action {
+            None => model.actions.iter().map(|action| describe_action(action, &model, None)).collect(),
             Some(name) => {
                 let action = model.action(name).ok_or_else(|| {
                     let names: Vec<Symbol> = model.actions.iter().map(|a| a.name.clone()).collect();
                     Failure::bad_input(format!("the model has no action `{name}`")).with_hint(or_one_of(name, &names))
                 })?;
-                write!(out, "{}", described(&describe_action(action, &model, Some(&evidence))))?;
+                vec![describe_action(action, &model, Some(&evidence))]
             }
+        };
+        let axioms = model.axioms.iter().filter(|_| self.action.is_none()).map(|axiom| describe_axiom(axiom, &model));
+        let all: Vec<Description> = actions.into_iter().chain(axioms).collect();
+        if self.json {
+            writeln!(out, "{}", serde_json::to_string_pretty(&all).unwrap_or_default())?;
+            return Ok(Exit::Success);
+        }
+        if self.action.is_none() {
+            head(&mut out, &model, &evidence)?;
+            if let Some(line) = refused_merges(refused) {
+                writeln!(out, "{line}\n")?;
+            }
+        }
+        let texts: Vec<String> = all.iter().map(described).collect();
+        write!(out, "{}", texts.join("\n"))?;
+        if self.action.is_none() && !texts.is_empty() {
+            writeln!(out)?;
         }
         Ok(Exit::Success)
     }
+
+    fn list_sources(&self, out: &mut impl Write, evidence: &Evidence) -> Result<Exit, Failure> {
+        let mut sources: Vec<(&SourceId, &Source)> = evidence.sources().iter().collect();
+        sources.sort_by_key(|(id, source)| (&source.name, *id));
+        if self.json {
+            let listed = sources.iter().map(
+                |(id, source)| serde_json::json!({"id": id, "name": source.name, "transitions": source.transitions}),
+            );
+            let listed: Vec<serde_json::Value> = listed.collect();
+            writeln!(out, "{}", serde_json::to_string_pretty(&listed).unwrap_or_default())?;
+            return Ok(Exit::Success);
+        }
+        for (id, Source { name, transitions }) in sources {
+            writeln!(out, "{}  {:>16}  {name}", id.short(), count(*transitions, "transition"))?;
+        }
+        Ok(Exit::Success)
+    }
+}
+
+/// What the model holds, in numbers.
+fn head(out: &mut impl Write, model: &ActionModel, evidence: &Evidence) -> Result<(), Failure> {
+    let h = &model.hierarchy;
+    let actor = model.actor.map_or("nobody".to_owned(), |ty| h.name(ty).to_string());
+    writeln!(
+        out,
+        "{}, {}, {}, from {}; {actor} acts\n",
+        count(model.actions.len() as u64, "action"),
+        count(h.len() as u64 - 1, "type"),
+        count(model.predicates.len() as u64, "predicate"),
+        count(evidence.total().transitions, "transition"),
+    )?;
+    Ok(())
 }

@@ -38,7 +38,7 @@ impl Cell {
         Self::is_end(self.x) || Self::is_end(self.y)
     }
 
-    /// Whether it is one of the four corners, which nobody can reach from the floor.
+    /// Whether it is one of the four corners, which are out of reach from the floor.
     pub(crate) fn is_corner(self) -> bool {
         Self::is_end(self.x) && Self::is_end(self.y)
     }

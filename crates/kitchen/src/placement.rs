@@ -1,5 +1,5 @@
 //! Seeded rooms: the border of the room is full of stations, one of each tool and counters otherwise. Tools and
-//! items keep out of the corners, which nobody can reach.
+//! items keep out of the corners, which are out of reach.
 
 use typelift_model::{SplitMix64, Symbol};
 

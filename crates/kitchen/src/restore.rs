@@ -106,7 +106,7 @@ impl Room {
         Ok(())
     }
 
-    /// The name of whoever has an item, if anybody has it yet.
+    /// The name of the entity that holds an item, if one does yet.
     pub(crate) fn place_of(&self, item: usize) -> Option<&Symbol> {
         let held = self.agent.holding == Some(item);
         held.then_some(&self.agent.name).or_else(|| self.container_holding(item).map(|c| self.container_name(c)))

@@ -33,7 +33,7 @@ pub(crate) enum Container {
     Plate(usize),
 }
 
-/// Whoever acts.
+/// The one who acts.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Agent {
     pub(crate) name: Symbol,
@@ -90,7 +90,7 @@ impl Item {
 }
 
 impl Room {
-    /// The name of whoever acts: argument 0 of every call.
+    /// The name of the one who acts: argument 0 of every call.
     pub fn agent_name(&self) -> &Symbol {
         &self.agent.name
     }

@@ -62,7 +62,7 @@ impl Room {
         Ok(())
     }
 
-    /// Puts the items that nobody has yet into stations: first those with a location, bottom first.
+    /// Puts the items that are not placed yet into stations: first those with a location, bottom first.
     fn settle_items(&mut self, located: &[Located<'_>]) -> Result<(), SnapshotError> {
         for &(entity, which, cell) in located {
             let (Which::Item(item), Some(cell)) = (which, cell) else { continue };

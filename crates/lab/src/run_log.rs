@@ -2,7 +2,7 @@
 //! run, appended in one write as it finishes. Whatever ends the program, no finished run is lost.
 //!
 //! A line without its end is what a killed program leaves; it is dropped, and its run repeated. Anything else that
-//! cannot be read is an error, since whoever damaged it may have damaged more. When everything is finished the lines
+//! cannot be read is an error, since more of the file may be damaged. When everything is finished the lines
 //! are put in order.
 
 use std::collections::BTreeMap;
@@ -213,7 +213,7 @@ fn json_line(value: &impl Serialize) -> String {
 }
 
 /// Removes what a program that was killed while it replaced a file left beside it: `.table.csv.123-0.tmp`. If that
-/// fails they stay, which harms nobody.
+/// fails they stay, which does no harm.
 fn remove_left_behind(folder: &Path) {
     let is_left_behind = |name: &str| {
         let number = name.strip_prefix('.').and_then(|name| name.strip_suffix(".tmp")?.rsplit('.').next());

@@ -65,12 +65,12 @@ pub trait Progress: Sync {
     }
 }
 
-/// Tells nobody.
+/// Reports nothing.
 impl Progress for () {}
 
 /// Where and how runs are carried out.
 #[derive(Clone)]
-pub struct Conduct<'a> {
+pub struct RunnerOptions<'a> {
     /// The folder of the run log and of the results.
     pub folder: &'a Path,
     /// Begin again: forget what is finished.
@@ -83,10 +83,10 @@ pub struct Conduct<'a> {
     pub progress: &'a dyn Progress,
 }
 
-impl std::fmt::Debug for Conduct<'_> {
+impl std::fmt::Debug for RunnerOptions<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let Self { folder, fresh, jobs, .. } = self;
-        f.debug_struct("Conduct")
+        f.debug_struct("RunnerOptions")
             .field("folder", folder)
             .field("fresh", fresh)
             .field("jobs", jobs)
@@ -101,21 +101,21 @@ impl std::fmt::Debug for Conduct<'_> {
 /// was finished before is in the log.
 pub fn carry_out<E: Experiment>(
     experiment: &E,
-    conduct: &Conduct<'_>,
+    runner: &RunnerOptions<'_>,
 ) -> Result<BTreeMap<E::Run, E::Record>, LabError> {
     let header = Header::new(E::NAME, experiment.settings());
-    let log: RunLog<E::Run, E::Record> = RunLog::open(conduct.folder, header, conduct.fresh)?;
+    let log: RunLog<E::Run, E::Record> = RunLog::open(runner.folder, header, runner.fresh)?;
     if log.torn() {
-        conduct.progress.note("the last line of the run log was not finished; its run is repeated");
+        runner.progress.note("the last line of the run log was not finished; its run is repeated");
     }
     let asked = experiment.runs();
     let mut missing: Vec<(u64, &E::Run)> =
         asked.iter().filter(|run| !log.finished().contains_key(run)).map(|run| (experiment.weight(run), run)).collect();
     missing.sort_by_key(|(weight, _)| std::cmp::Reverse(*weight));
     let weight = missing.iter().map(|(weight, _)| weight).sum();
-    conduct.progress.begun(missing.len(), weight, asked.len() - missing.len());
-    let shared = Shared { experiment, conduct, log: Mutex::new(log), failure: Mutex::new(None) };
-    let threads = ThreadPoolBuilder::new().num_threads(conduct.jobs);
+    runner.progress.begun(missing.len(), weight, asked.len() - missing.len());
+    let shared = Shared { experiment, runner, log: Mutex::new(log), failure: Mutex::new(None) };
+    let threads = ThreadPoolBuilder::new().num_threads(runner.jobs);
     let pool = threads.build().map_err(|error| LabError::Threads(error.to_string()))?;
     pool.scope_fifo(|scope| {
         for (weight, run) in missing {
@@ -129,26 +129,26 @@ pub fn carry_out<E: Experiment>(
 /// What the threads share.
 struct Shared<'a, E: Experiment> {
     experiment: &'a E,
-    conduct: &'a Conduct<'a>,
+    runner: &'a RunnerOptions<'a>,
     log: Mutex<RunLog<E::Run, E::Record>>,
     failure: Mutex<Option<LabError>>,
 }
 
 impl<E: Experiment> Shared<'_, E> {
     fn carry_out(&self, run: &E::Run, weight: u64) {
-        if (self.conduct.stopper)() || locked(&self.failure).is_some() {
+        if (self.runner.stopper)() || locked(&self.failure).is_some() {
             return;
         }
         let name = run.to_string();
-        self.conduct.progress.started(&name);
+        self.runner.progress.started(&name);
         let logged = self
             .experiment
-            .run(run, &self.conduct.stopper)
+            .run(run, &self.runner.stopper)
             .and_then(|record| record.map_or(Ok(()), |record| Ok(locked(&self.log).append(run.clone(), record)?)));
         if let Err(error) = logged {
             locked(&self.failure).get_or_insert(error);
         }
-        self.conduct.progress.ended(&name, weight);
+        self.runner.progress.ended(&name, weight);
     }
 
     fn results(self, asked: &[E::Run]) -> Result<BTreeMap<E::Run, E::Record>, LabError> {
@@ -215,8 +215,8 @@ mod tests {
         }
     }
 
-    fn conduct(folder: &Path, stopper: Stopper) -> Conduct<'_> {
-        Conduct { folder, fresh: false, jobs: 3, stopper, progress: &() }
+    fn runner(folder: &Path, stopper: Stopper) -> RunnerOptions<'_> {
+        RunnerOptions { folder, fresh: false, jobs: 3, stopper, progress: &() }
     }
 
     #[test]
@@ -225,7 +225,7 @@ mod tests {
         let (undisturbed, stopped) = (folder.path().join("a"), folder.path().join("b"));
         let never: Stopper = Arc::new(|| false);
         let expected: BTreeMap<u64, u64> = (0..20).map(|n| (n, n * n)).collect();
-        assert_eq!(carry_out(&Squares::default(), &conduct(&undisturbed, never.clone())).expect("done"), expected);
+        assert_eq!(carry_out(&Squares::default(), &runner(&undisturbed, never.clone())).expect("done"), expected);
 
         // Stopped again and again, after a few questions.
         let mut carried_out = 0;
@@ -235,7 +235,7 @@ mod tests {
             let asked = AtomicUsize::new(0);
             let stopper: Stopper = Arc::new(move || asked.fetch_add(1, Ordering::SeqCst) > 8);
             let squares = Squares::default();
-            match carry_out(&squares, &conduct(&stopped, stopper)) {
+            match carry_out(&squares, &runner(&stopped, stopper)) {
                 Ok(results) => break results,
                 Err(LabError::Stopped { finished, total }) => assert!(finished > carried_out && total == 20),
                 Err(error) => panic!("{error}"),
@@ -248,7 +248,7 @@ mod tests {
         assert_eq!(a, b);
 
         let again = Squares::default();
-        carry_out(&again, &conduct(&stopped, never)).expect("done");
+        carry_out(&again, &runner(&stopped, never)).expect("done");
         assert_eq!(again.carried_out.into_inner(), 0);
     }
 
@@ -257,10 +257,10 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let never: Stopper = Arc::new(|| false);
         let bad = Squares { bad: Some(0), ..Squares::default() };
-        let error = carry_out(&bad, &conduct(folder.path(), never.clone())).expect_err("a defect");
+        let error = carry_out(&bad, &runner(folder.path(), never.clone())).expect_err("a defect");
         assert_eq!(error.to_string(), "0: no");
         let repaired = Squares::default();
-        carry_out(&repaired, &conduct(folder.path(), never)).expect("done");
+        carry_out(&repaired, &runner(folder.path(), never)).expect("done");
         assert_eq!(repaired.carried_out.into_inner(), 1, "only what had failed");
     }
 }

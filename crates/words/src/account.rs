@@ -81,7 +81,7 @@ pub struct ExclusionView {
 }
 
 impl AccountView {
-    /// The view of a task's account; `planning_seconds` is for the clock of whoever ran the episode to say.
+    /// The view of a task's account; `planning_seconds` is what the caller measured.
     pub fn of(task: &str, account: &Account, episode: &Episode, planning_seconds: f64) -> Self {
         let plan = account.plan.as_ref().filter(|_| account.solved());
         let suspects = episode.experience().suspects(episode.instance());

@@ -40,7 +40,7 @@ pub struct AnswerView {
 
 impl AnswerView {
     /// The answer of a proposal that has given these plans, and then ended in `last`. Memory and
-    /// time are for whoever can measure them to say.
+    /// time are what the caller measured.
     pub fn of(proposal: &Proposal, plans: &[Plan], last: &Outcome, bytes: u64, seconds: f64) -> Self {
         let report = proposal.report();
         let explanation = plans.is_empty().then(|| why_none(proposal, last)).flatten();

@@ -52,7 +52,7 @@ impl LabDemonstrations {
         let files = "violins.svg, demonstrations.csv, sizes.csv, gains.csv, demonstrations.json and demonstrations.md";
         let result = self
             .experiment
-            .carry_out(self.rooms.jobs, clock, quiet, files, |conduct| demonstrations_experiment(&options, conduct))?;
+            .carry_out(self.rooms.jobs, clock, quiet, files, |runner| demonstrations_experiment(&options, runner))?;
         self.experiment.results.print(&result.json(), |out| print(out, &result))?;
         warn(result.out_of_time(), result.records.values().any(|record| !record.solved.is_empty()), quiet);
         Ok(Exit::Success)

@@ -5,7 +5,7 @@ use std::io::Write;
 
 use typelift_lab::{FaultRow, FaultsOptions, FaultsResult, faults_experiment};
 
-use super::options::{ExperimentOptions, RoomOptions, parse_runs, warn};
+use super::options::{ExperimentOptions, RepeatedRoomOptions, warn};
 use crate::columns::Columns;
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -27,11 +27,8 @@ Limits, unless told otherwise: 200,000 expansions a search, 12 proposals and
 pub(super) struct LabFaults {
     #[command(flatten)]
     experiment: ExperimentOptions,
-    /// Runs of each scenario, each in a room of its own; 1 with --quick
-    #[arg(long, value_name = "N", value_parser = parse_runs, allow_negative_numbers = true)]
-    runs: Option<u64>,
     #[command(flatten)]
-    rooms: RoomOptions,
+    repeated: RepeatedRoomOptions,
 }
 
 impl LabFaults {
@@ -39,15 +36,15 @@ impl LabFaults {
         let default = FaultsOptions::default();
         let quick = self.experiment.quick;
         let options = FaultsOptions {
-            runs: self.runs.unwrap_or(if quick { 1 } else { default.runs }),
-            seed: self.rooms.seed,
-            limits: self.rooms.limits.or(default.limits),
+            runs: self.repeated.runs(quick, default.runs),
+            seed: self.repeated.rooms.seed,
+            limits: self.repeated.rooms.limits.or(default.limits),
             quick,
         };
         let files = "faults.csv, faults.json and faults.md";
         let result = self
             .experiment
-            .carry_out(self.rooms.jobs, clock, quiet, files, |conduct| faults_experiment(&options, conduct))?;
+            .carry_out(self.repeated.rooms.jobs, clock, quiet, files, |runner| faults_experiment(&options, runner))?;
         self.experiment.results.print(&result.json(), |out| print(out, &result))?;
         let outcomes = || result.records.values().flat_map(|record| [&record.first, &record.later]);
         let out_of_time = outcomes().filter(|outcome| typelift_lab::is_out_of_time(&outcome.ending)).count();

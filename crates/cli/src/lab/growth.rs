@@ -6,7 +6,7 @@ use std::time::Duration;
 use typelift::words::count;
 
 use typelift_lab::{
-    Allowance, Conduct, Growth, GrowthResult, LabError, Measurement, Point, Stopper, carry_out, measure,
+    Allowance, Growth, GrowthResult, LabError, Measurement, Point, RunnerOptions, Stopper, carry_out, measure,
 };
 
 use super::options::ExperimentOptions;
@@ -64,21 +64,20 @@ impl LabGrowth {
     pub(super) fn run(&self, clock: Clock, quiet: bool) -> Result<Exit, Failure> {
         let files = "growth.csv, growth_fits.csv, growth.json and the figures";
         let (quick, allowance) = (self.experiment.quick, self.allowance);
-        let result =
-            self.experiment.carry_out(None, clock, quiet, files, |conduct| growth(quick, allowance, conduct))?;
+        let result = self.experiment.carry_out(None, clock, quiet, files, |runner| growth(quick, allowance, runner))?;
         self.experiment.results.print(&result, |out| print(out, &result))?;
         Ok(Exit::Success)
     }
 }
 
 /// Measures every point and writes the results.
-pub(super) fn growth(quick: bool, limits: GrowthLimits, conduct: &Conduct<'_>) -> Result<GrowthResult, LabError> {
+pub(super) fn growth(quick: bool, limits: GrowthLimits, runner: &RunnerOptions<'_>) -> Result<GrowthResult, LabError> {
     let allowance = limits.allowance();
     let experiment = Growth { quick, allowance, measure: &measure_apart };
     // Two at once would be in each other's way.
-    let measured = carry_out(&experiment, &Conduct { jobs: 1, ..conduct.clone() })?;
+    let measured = carry_out(&experiment, &RunnerOptions { jobs: 1, ..runner.clone() })?;
     let result = GrowthResult::new(quick, allowance, measured);
-    result.write(conduct.folder)?;
+    result.write(runner.folder)?;
     Ok(result)
 }
 

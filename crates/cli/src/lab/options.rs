@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use clap::builder::NonEmptyStringValueParser;
 use serde::Serialize;
-use typelift_lab::{Conduct, LabError, Limits, Stopper};
+use typelift_lab::{LabError, Limits, RunnerOptions, Stopper};
 
 use super::progress::Bar;
 use crate::exit::Exit;
@@ -69,7 +69,7 @@ impl ExperimentOptions {
         clock: Clock,
         quiet: bool,
         files: &str,
-        experiment: impl FnOnce(&Conduct<'_>) -> Result<R, LabError>,
+        experiment: impl FnOnce(&RunnerOptions<'_>) -> Result<R, LabError>,
     ) -> Result<R, Failure> {
         let folder = self.results.folder();
         let result = Supervisor::install(quiet)?.carry_out(&folder, self.fresh, jobs, experiment)?;
@@ -92,6 +92,23 @@ pub(super) struct RoomOptions {
     pub(super) seed: u64,
     #[command(flatten)]
     pub(super) limits: LimitOptions,
+}
+
+/// The rooms of an experiment that runs everything several times.
+#[derive(Debug, clap::Args)]
+pub(super) struct RepeatedRoomOptions {
+    /// Run everything so often, each time in a room of its own; 1 with --quick
+    #[arg(long, value_name = "N", value_parser = parse_runs, allow_negative_numbers = true)]
+    runs: Option<u64>,
+    #[command(flatten)]
+    pub(super) rooms: RoomOptions,
+}
+
+impl RepeatedRoomOptions {
+    /// How often everything is run: as the user says, or once where it is to be quick, or by default.
+    pub(super) fn runs(&self, quick: bool, default: u64) -> u64 {
+        self.runs.unwrap_or(if quick { 1 } else { default })
+    }
 }
 
 /// What a run may spend.
@@ -128,7 +145,7 @@ fn parse_jobs(text: &str) -> Result<usize, String> {
 }
 
 /// Reads a number of runs, each in a room of its own.
-pub(super) fn parse_runs(text: &str) -> Result<u64, String> {
+fn parse_runs(text: &str) -> Result<u64, String> {
     match parse_whole(text)? {
         0 => Err("nothing would be run".to_owned()),
         runs => Ok(runs),
@@ -154,12 +171,12 @@ impl Supervisor {
         folder: &Path,
         fresh: bool,
         jobs: Option<usize>,
-        experiment: impl FnOnce(&Conduct<'_>) -> Result<R, LabError>,
+        experiment: impl FnOnce(&RunnerOptions<'_>) -> Result<R, LabError>,
     ) -> Result<R, Failure> {
         let bar = Bar::new(self.quiet);
         let jobs = jobs.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from));
-        let conduct = Conduct { folder, fresh, jobs, stopper: Arc::clone(&self.stopper), progress: &bar };
-        let result = experiment(&conduct);
+        let runner = RunnerOptions { folder, fresh, jobs, stopper: Arc::clone(&self.stopper), progress: &bar };
+        let result = experiment(&runner);
         bar.finish();
         result.map_err(|error| failure(error, fresh))
     }

@@ -7,8 +7,8 @@ use std::path::Path;
 use typelift::world::{FileError, write_file};
 use typelift_lab::report::{Environment, Judged, Results, judge, report_page};
 use typelift_lab::{
-    Conduct, DemonstrationsOptions, FaultsOptions, LabError, TableOptions, TypeHierarchy, demonstrations_experiment,
-    faults_experiment, table,
+    DemonstrationsOptions, FaultsOptions, LabError, RunnerOptions, TableOptions, TypeHierarchy,
+    demonstrations_experiment, faults_experiment, table,
 };
 
 use super::growth::{GrowthLimits, growth};
@@ -66,27 +66,27 @@ fn run_missing(folder: &Path, missing: &[&str], quiet: bool) -> Result<(), Failu
         if !quiet {
             anstream::eprint!("{experiment}: ");
         }
-        supervisor.carry_out(&folder.join(experiment), false, None, |conduct| quick(experiment, conduct))?;
+        supervisor.carry_out(&folder.join(experiment), false, None, |runner| quick(experiment, runner))?;
     }
     Ok(())
 }
 
-fn quick(experiment: &str, conduct: &Conduct<'_>) -> Result<(), LabError> {
+fn quick(experiment: &str, runner: &RunnerOptions<'_>) -> Result<(), LabError> {
     match experiment {
-        "table" => table(&TableOptions { runs: 1, quick: true, ..TableOptions::default() }, conduct).map(drop),
+        "table" => table(&TableOptions { runs: 1, quick: true, ..TableOptions::default() }, runner).map(drop),
         "demonstrations" => {
             let options = DemonstrationsOptions { quick: true, ..DemonstrationsOptions::default() };
-            demonstrations_experiment(&options, conduct).map(drop)
+            demonstrations_experiment(&options, runner).map(drop)
         }
         "faults" => {
             let options = FaultsOptions { runs: 1, quick: true, ..FaultsOptions::default() };
-            faults_experiment(&options, conduct).map(drop)
+            faults_experiment(&options, runner).map(drop)
         }
-        "growth" => growth(true, GrowthLimits::default(), conduct).map(drop),
+        "growth" => growth(true, GrowthLimits::default(), runner).map(drop),
         _ => {
-            create_dir_all(conduct.folder).map_err(|error| FileError::from_write(conduct.folder, &error))?;
-            conduct.progress.begun(1, 1, 0);
-            Ok(TypeHierarchy::of_the_kitchen().write(conduct.folder).map(drop)?)
+            create_dir_all(runner.folder).map_err(|error| FileError::from_write(runner.folder, &error))?;
+            runner.progress.begun(1, 1, 0);
+            Ok(TypeHierarchy::of_the_kitchen().write(runner.folder).map(drop)?)
         }
     }
 }

@@ -2,9 +2,9 @@
 
 use std::io::Write;
 
-use typelift_lab::{Cell, TableOptions, TableResult, Variant, Verdict, published, table};
+use typelift_lab::{Cell, Comparison, TableOptions, TableResult, Variant, published, table};
 
-use super::options::{ExperimentOptions, RoomOptions, parse_runs, warn};
+use super::options::{ExperimentOptions, RepeatedRoomOptions, warn};
 use crate::columns::Columns;
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -25,14 +25,11 @@ Limits, unless told otherwise: 200,000 expansions a search, 12 proposals and
 pub(super) struct LabTable {
     #[command(flatten)]
     experiment: ExperimentOptions,
-    /// Runs of each cell, each in a room of its own; 1 with --quick
-    #[arg(long, value_name = "N", value_parser = parse_runs, allow_negative_numbers = true)]
-    runs: Option<u64>,
     /// Do not measure planning times
     #[arg(long)]
     no_times: bool,
     #[command(flatten)]
-    rooms: RoomOptions,
+    repeated: RepeatedRoomOptions,
 }
 
 impl LabTable {
@@ -40,15 +37,16 @@ impl LabTable {
         let default = TableOptions::default();
         let quick = self.experiment.quick;
         let options = TableOptions {
-            runs: self.runs.unwrap_or(if quick { 1 } else { default.runs }),
-            seed: self.rooms.seed,
-            limits: self.rooms.limits.or(default.limits),
+            runs: self.repeated.runs(quick, default.runs),
+            seed: self.repeated.rooms.seed,
+            limits: self.repeated.rooms.limits.or(default.limits),
             times: !self.no_times,
             quick,
         };
         let files = "table.csv, table.json and table.md";
-        let result =
-            self.experiment.carry_out(self.rooms.jobs, clock, quiet, files, |conduct| table(&options, conduct))?;
+        let result = self
+            .experiment
+            .carry_out(self.repeated.rooms.jobs, clock, quiet, files, |runner| table(&options, runner))?;
         self.experiment.results.print(&result.json(), |out| print(out, &result))?;
         let out_of_time = result.cells.iter().map(|cell| cell.out_of_time).sum();
         warn(out_of_time, result.cells.iter().any(|cell| cell.solved > 0), quiet);
@@ -90,7 +88,7 @@ fn print(out: &mut dyn Write, result: &TableResult) -> Result<(), Failure> {
 
 fn cell_text(cell: &Cell) -> String {
     let mut text = cell.text();
-    if cell.verdict() != Verdict::Equal {
+    if cell.comparison() != Comparison::Equal {
         text += &format!(" ({})", cell.published_text());
     }
     match cell.seconds {
@@ -102,10 +100,10 @@ fn cell_text(cell: &Cell) -> String {
 }
 
 fn cell_style(cell: &Cell) -> anstyle::Style {
-    match cell.verdict() {
-        Verdict::Equal if cell.solved == 0 => DIM,
-        Verdict::Equal => anstyle::Style::new(),
-        Verdict::Better => GOOD,
-        Verdict::Worse => BAD,
+    match cell.comparison() {
+        Comparison::Equal if cell.solved == 0 => DIM,
+        Comparison::Equal => anstyle::Style::new(),
+        Comparison::Better => GOOD,
+        Comparison::Worse => BAD,
     }
 }

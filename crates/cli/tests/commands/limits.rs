@@ -173,3 +173,44 @@ fn memory_stays_at_its_limit() {
         assert!(held.contains(&peak), "{command}: {peak} MB, and {at_rest} MB at rest, where {limit} MB are allowed");
     }
 }
+
+/// An environment in which all lamps are dark until something is done, and two are lit from then on.
+#[cfg(target_os = "linux")]
+fn two_lamps(folder: &Folder) {
+    let objects = (0..24).map(|i| format!(r#""l{i}":"object""#)).collect::<Vec<_>>().join(",");
+    let state = |atoms: &str| format!(r#""ok":true,"state":{{"objects":{{{objects}}},"atoms":[{atoms}]}}"#);
+    let script = format!(
+        r#"n=0
+while read -r request; do
+  n=$((n+1))
+  case "$request" in
+    *'"hello"'*) echo "{{\"id\":$n,\"ok\":true,\"name\":\"lamps\",\"reset\":true}}";;
+    *'"act"'*) echo '{{"id":'$n',"executed":true,{}}}';;
+    *'"close"'*) echo "{{\"id\":$n,\"ok\":true}}";;
+    *) echo '{{"id":'$n',{}}}';;
+  esac
+done
+"#,
+        state(r#""lit(l0)","lit(l1)""#),
+        state("")
+    );
+    folder.write("lamps.sh", script);
+}
+
+/// That each task of a run has the whole limit: what the process came to hold in the tasks before does not count.
+#[cfg(target_os = "linux")]
+#[test]
+fn each_task_of_a_run_has_the_whole_limit() {
+    let folder = Folder::new();
+    lamps(&folder);
+    two_lamps(&folder);
+    // Two lamps are within reach, unlike a single one.
+    folder.write("near.pddl", folder.read("problem.pddl").replace(" (not (lit l1))", " (lit l1)"));
+    let limits = "--max-expansions 100000000 --memory-limit 20M";
+    let tasks = "problem.pddl near.pddl problem.pddl";
+    let ended = folder.run(&format!("run domain.pddl {tasks} --env 'sh lamps.sh' -q --json {limits}"));
+    assert_eq!(ended.code, 12, "{ended}");
+    let endings: Vec<&str> =
+        ended.out.lines().filter_map(|line| line.split_once(r#""ending":""#)?.1.split('"').next()).collect();
+    assert_eq!(endings, ["out_of_memory", "solved", "out_of_memory"], "{ended}");
+}

@@ -127,3 +127,20 @@ fn what_is_read_is_not_written_over() {
     assert_eq!(names.map(|name| folder.read(name)), before);
     folder.run("learn K/demos --types K/types.pddl -o kitchen.json").succeeds();
 }
+
+#[test]
+fn what_is_shown_is_there_for_programs() {
+    let folder = Folder::kitchen();
+    let shown = |options: &str| -> Vec<serde_json::Value> {
+        let ended = folder.run(&format!("show kitchen.json --json {options}"));
+        ended.succeeds();
+        serde_json::from_str(&ended.out).expect("a list")
+    };
+    assert_eq!(shown("").len(), 13);
+    let one = shown("--action USE-cutboard-food");
+    assert_eq!((one.len(), &one[0]["name"]), (1, &"USE-cutboard-food".into()));
+    assert!(one[0]["rows"].as_array().is_some_and(|rows| rows.iter().any(|row| row["label"] == "seen")), "{one:?}");
+    let sources = shown("--sources");
+    assert_eq!(sources.iter().filter_map(|source| source["transitions"].as_u64()).sum::<u64>(), 68);
+    assert_eq!(folder.run("show kitchen.json --json --pddl").code, 36);
+}

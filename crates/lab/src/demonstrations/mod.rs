@@ -18,7 +18,7 @@ use crate::attempt::{Setting, attempt};
 use crate::error::LabError;
 use crate::learned::learned_from;
 use crate::limits::{Limits, Stopper};
-use crate::runner::{Conduct, Experiment, carry_out};
+use crate::runner::{Experiment, RunnerOptions, carry_out};
 use crate::statistics::median;
 use crate::variant::{Variant, paper_options};
 
@@ -195,16 +195,16 @@ impl DemonstrationsResult {
 /// [`LabError`]; see [`carry_out`].
 pub fn demonstrations_experiment(
     options: &DemonstrationsOptions,
-    conduct: &Conduct<'_>,
+    runner: &RunnerOptions<'_>,
 ) -> Result<DemonstrationsResult, LabError> {
     let experiment = SubsetExperiment { options, demonstrations: demonstrations(0), tasks: tasks() };
-    let records = carry_out(&experiment, conduct)?;
+    let records = carry_out(&experiment, runner)?;
     let result = DemonstrationsResult {
         options: options.clone(),
         tasks: experiment.tasks.len(),
         titles: experiment.demonstrations.iter().map(|shown| shown.recording.header.task.clone()).collect(),
         records,
     };
-    result.write(conduct.folder)?;
+    result.write(runner.folder)?;
     Ok(result)
 }

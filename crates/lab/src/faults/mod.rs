@@ -18,7 +18,7 @@ use crate::attempt::{Setting, attempt_in};
 use crate::error::LabError;
 use crate::learned::kitchen_model;
 use crate::limits::{Limits, Stopper};
-use crate::runner::{Conduct, Experiment, carry_out};
+use crate::runner::{Experiment, RunnerOptions, carry_out};
 use crate::variant::paper_options;
 
 pub use outcome::Outcome;
@@ -159,12 +159,12 @@ pub struct FaultsResult {
 ///
 /// # Errors
 /// [`LabError`]; see [`carry_out`].
-pub fn faults_experiment(options: &FaultsOptions, conduct: &Conduct<'_>) -> Result<FaultsResult, LabError> {
+pub fn faults_experiment(options: &FaultsOptions, runner: &RunnerOptions<'_>) -> Result<FaultsResult, LabError> {
     let mut scenarios = fault_scenarios();
     scenarios.retain(|scenario| !options.quick || scenario::QUICK.contains(&scenario.name.as_str()));
     let experiment = FaultsExperiment { options: *options, model: Arc::new(kitchen_model(false)), scenarios };
-    let records = carry_out(&experiment, conduct)?;
+    let records = carry_out(&experiment, runner)?;
     let result = FaultsResult { options: *options, scenarios: experiment.scenarios, records };
-    result.write(conduct.folder)?;
+    result.write(runner.folder)?;
     Ok(result)
 }

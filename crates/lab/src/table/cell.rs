@@ -41,7 +41,7 @@ pub struct Cell {
 
 /// How a cell compares with the published one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Verdict {
+pub enum Comparison {
     /// The same in solved or not, `#p` and `|p|`.
     Equal,
     /// Solved where the published one is not, or with fewer proposals or a shorter plan and more of neither.
@@ -61,23 +61,23 @@ impl Cell {
     }
 
     /// How it compares with the published cell.
-    pub fn verdict(&self) -> Verdict {
+    pub fn comparison(&self) -> Comparison {
         let (Some(proposals), Some(length)) = (self.proposals, self.plan_length) else {
-            return if self.published.is_none() { Verdict::Equal } else { Verdict::Worse };
+            return if self.published.is_none() { Comparison::Equal } else { Comparison::Worse };
         };
         let Some(published) = self.published else {
-            return Verdict::Better;
+            return Comparison::Better;
         };
         if self.is_solved().is_none() {
-            return Verdict::Worse;
+            return Comparison::Worse;
         }
         let (p, l) = (published.proposals as f64, published.plan_length as f64);
         if (proposals, length) == (p, l) {
-            Verdict::Equal
+            Comparison::Equal
         } else if proposals <= p && length <= l {
-            Verdict::Better
+            Comparison::Better
         } else {
-            Verdict::Worse
+            Comparison::Worse
         }
     }
 
@@ -159,17 +159,17 @@ mod tests {
 
     #[test]
     fn cells_compare_with_published_ones() {
-        let cases: [(&[Found], &str, Verdict); 6] = [
-            (&[Some((8, 15)), Some((8, 15))], "8/15", Verdict::Equal),
-            (&[Some((1, 15)), Some((3, 15)), Some((2, 15))], "2/15", Verdict::Better),
-            (&[Some((8, 13)), Some((8, 15))], "8/14", Verdict::Better),
-            (&[Some((1, 16)), Some((1, 16))], "1/16", Verdict::Worse),
-            (&[Some((8, 15)), None], "1 of 2: 8/15", Verdict::Worse),
-            (&[None, None], "-", Verdict::Worse),
+        let cases: [(&[Found], &str, Comparison); 6] = [
+            (&[Some((8, 15)), Some((8, 15))], "8/15", Comparison::Equal),
+            (&[Some((1, 15)), Some((3, 15)), Some((2, 15))], "2/15", Comparison::Better),
+            (&[Some((8, 13)), Some((8, 15))], "8/14", Comparison::Better),
+            (&[Some((1, 16)), Some((1, 16))], "1/16", Comparison::Worse),
+            (&[Some((8, 15)), None], "1 of 2: 8/15", Comparison::Worse),
+            (&[None, None], "-", Comparison::Worse),
         ];
         for (runs, text, verdict) in cases {
             let cell = cell(runs);
-            assert_eq!((cell.text().as_str(), cell.verdict()), (text, verdict), "{runs:?}");
+            assert_eq!((cell.text().as_str(), cell.comparison()), (text, verdict), "{runs:?}");
             assert_eq!(cell.published_text(), "8/15");
         }
         let (mean, sd) = cell(&[None, None, None]).seconds.expect("measured");
@@ -180,8 +180,8 @@ mod tests {
     fn where_nothing_is_published_nothing_is_equal_and_something_better() {
         let mut cell = cell(&[None]);
         cell.published = None;
-        assert_eq!((cell.verdict(), cell.published_text().as_str()), (Verdict::Equal, "-"));
+        assert_eq!((cell.comparison(), cell.published_text().as_str()), (Comparison::Equal, "-"));
         (cell.solved, cell.proposals, cell.plan_length) = (1, Some(1.0), Some(5.0));
-        assert_eq!(cell.verdict(), Verdict::Better);
+        assert_eq!(cell.comparison(), Comparison::Better);
     }
 }

@@ -16,10 +16,10 @@ use crate::attempt::{Setting, attempt, ending_word};
 use crate::error::LabError;
 use crate::learned::learned_from;
 use crate::limits::{Limits, Stopper};
-use crate::runner::{Conduct, Experiment, carry_out};
+use crate::runner::{Experiment, RunnerOptions, carry_out};
 use crate::variant::{Variant, paper_options};
 
-pub use cell::{Cell, Verdict};
+pub use cell::{Cell, Comparison};
 
 /// What is run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -167,7 +167,7 @@ pub struct TableResult {
 ///
 /// # Errors
 /// [`LabError`]; see [`carry_out`].
-pub fn table(options: &TableOptions, conduct: &Conduct<'_>) -> Result<TableResult, LabError> {
+pub fn table(options: &TableOptions, runner: &RunnerOptions<'_>) -> Result<TableResult, LabError> {
     let shown = demonstrations(0);
     let learned = [false, true].map(|individual| learned_from(&shown, individual));
     let transitions = learned[0].1.transitions;
@@ -177,9 +177,9 @@ pub fn table(options: &TableOptions, conduct: &Conduct<'_>) -> Result<TableResul
     tasks.retain(|task| !options.quick || QUICK.contains(&task.name.as_str()));
     let actions = models.iter().map(|(variant, model)| (*variant, model.actions.len())).collect();
     let experiment = TableExperiment { options: *options, models, tasks };
-    let records = carry_out(&experiment, conduct)?;
+    let records = carry_out(&experiment, runner)?;
     let cells = cell::cells(&experiment.tasks, &records);
     let result = TableResult { options: *options, transitions, actions, cells, records };
-    result.write(conduct.folder)?;
+    result.write(runner.folder)?;
     Ok(result)
 }

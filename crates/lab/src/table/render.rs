@@ -9,7 +9,7 @@ use typelift::world::{FileError, write_file};
 use crate::csv::{Csv, optional, seconds};
 use crate::published::published;
 use crate::statistics::median;
-use crate::table::cell::{Cell, Verdict};
+use crate::table::cell::{Cell, Comparison};
 use crate::table::{TableOptions, TableResult};
 use crate::variant::Variant;
 
@@ -31,8 +31,8 @@ const COLUMNS: [&str; 13] = [
 
 impl TableResult {
     /// How many cells compare so with the published ones.
-    pub fn count(&self, verdict: Verdict) -> usize {
-        self.cells.iter().filter(|cell| cell.verdict() == verdict).count()
+    pub fn count(&self, comparison: Comparison) -> usize {
+        self.cells.iter().filter(|cell| cell.comparison() == comparison).count()
     }
 
     /// How many cells are solved in all runs where the published one is, and in none where it is not.
@@ -42,8 +42,8 @@ impl TableResult {
 
     /// `90 of 96 cells equal in #p and |p|, 6 better, 0 worse; 96 of 96 in solved or not.`
     pub fn summary(&self) -> String {
-        let (all, better, worse) = (self.cells.len(), self.count(Verdict::Better), self.count(Verdict::Worse));
-        let (equal, same) = (self.count(Verdict::Equal), self.same_in_solved());
+        let (all, better, worse) = (self.cells.len(), self.count(Comparison::Better), self.count(Comparison::Worse));
+        let (equal, same) = (self.count(Comparison::Equal), self.same_in_solved());
         format!(
             "{equal} of {all} cells equal in #p and |p|, {better} better, {worse} worse; {same} of {all} in solved or not."
         )
@@ -149,9 +149,9 @@ impl TableResult {
             "actions": learned,
             "summary": {
                 "cells": self.cells.len(),
-                "equal": self.count(Verdict::Equal),
-                "better": self.count(Verdict::Better),
-                "worse": self.count(Verdict::Worse),
+                "equal": self.count(Comparison::Equal),
+                "better": self.count(Comparison::Better),
+                "worse": self.count(Comparison::Worse),
                 "same_in_solved": self.same_in_solved(),
             },
             "cells": cells,
@@ -167,7 +167,11 @@ impl TableResult {
 
 /// `#p/|p|`, and the published cell where it differs.
 fn beside(cell: &Cell) -> String {
-    if cell.verdict() == Verdict::Equal { cell.text() } else { format!("{} ({})", cell.text(), cell.published_text()) }
+    if cell.comparison() == Comparison::Equal {
+        cell.text()
+    } else {
+        format!("{} ({})", cell.text(), cell.published_text())
+    }
 }
 
 fn times(cell: &Cell) -> String {
@@ -179,10 +183,10 @@ fn times(cell: &Cell) -> String {
 }
 
 fn cell_json(cell: &Cell) -> Value {
-    let verdict = match cell.verdict() {
-        Verdict::Equal => "equal",
-        Verdict::Better => "better",
-        Verdict::Worse => "worse",
+    let verdict = match cell.comparison() {
+        Comparison::Equal => "equal",
+        Comparison::Better => "better",
+        Comparison::Worse => "worse",
     };
     let paper = cell.published.map(|paper| {
         json!({
