@@ -158,7 +158,8 @@ const ORDER_IN_PLAN: &[&str] = &[
     "alike", "assignment", "fact", "packed_lists", "outcome", "poll", "report", "restrictions", "shuffle",
     "op", "axioms", "pattern", "scope", "reach", "distinct", "ground", "fdr",
     "instantiate", "explain", "external", "relaxation", "restriction_literals", "symmetry",
-    "landmark", "heuristic", "search", "lama", "strategy", "options", "stages", "level", "widening", "planner",
+    "landmark", "heuristic", "search", "lama", "ordered_first", "strategy", "options", "stages", "level", "widening",
+    "alternatives", "planner",
 ];
 
 /// The same of `pddl`.

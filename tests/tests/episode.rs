@@ -11,7 +11,7 @@ use typelift::learn::{evidence_of, learn};
 use typelift::model::{
     ActionModel, Budget, GoalError, GroundAtom, GroundCall, Hierarchy, ParseConfig, Plan, State, Symbol,
 };
-use typelift::plan::{self, Exclusion};
+use typelift::plan::Exclusion;
 use typelift::words::{WireCommand, wire_command};
 use typelift::world::{Dataset, Parser, Scene, Trace, TraceAction, Verdict};
 
@@ -342,9 +342,7 @@ fn a_result_counts_for_the_action_that_it_answers() {
 
 #[test]
 fn another_plan_says_nothing_against_the_first() {
-    // Two ways to a state are kept.
-    let plan = plan::Options { plans: 2, ..plan::Options::default() };
-    let mut it = ByHand::asked(Options { plan, ..Options::default() });
+    let mut it = ByHand::asked(Options::default());
     let planning = |it: &ByHand| it.events.iter().filter(|e| matches!(e, Event::PlanningStarted { .. })).count();
     let searches = planning(&it);
     assert_eq!(it.answer(|id| Input::AnotherPlan { id }), "propose cut(saw_2, b)");

@@ -1,7 +1,7 @@
 //! How much every strategy searches on some twenty tasks, to the last node, and what its plans cost.
 //!
 //! Nothing here says that a number is good. But what makes the planner fast (estimates, preferred actions, orders of
-//! landmarks, symmetries, mutex groups) leaves every plan a plan when it breaks, and only these numbers show it. Whoever
+//! landmarks, symmetries, mutex groups) leaves every plan a plan when it breaks, and only these numbers show it. A reader who
 //! means to change how much is searched accepts the new numbers with `INSTA_UPDATE=always` and reads the difference.
 
 use std::fmt::Write;
@@ -18,7 +18,7 @@ use typelift_tests::{kitchen_model, planning_task};
 /// So many expansions a first plan may take: with LAMA's searches enough for each of them to have its turn.
 fn for_the_first(strategy: Strategy) -> Budget {
     Budget::with_expansions(match strategy {
-        Strategy::OrderedLandmarks | Strategy::AStarLmCut | Strategy::AStarBlind => 400,
+        Strategy::OrderedFirst | Strategy::OrderedLandmarks | Strategy::AStarLmCut | Strategy::AStarBlind => 400,
         Strategy::LazyFf | Strategy::LazyLandmarks => 1_000,
         Strategy::LamaPortfolio => 5_000,
     })
@@ -30,8 +30,8 @@ const FOR_ANOTHER: u64 = 400;
 /// So many different plans are asked for, and so many cheaper ones.
 const PLANS: usize = 3;
 
-fn planner(model: &ActionModel, task: &Task, strategy: Strategy, plans: usize) -> Planner {
-    let options = Options { strategy, plans, ..Options::default() };
+fn planner(model: &ActionModel, task: &Task, strategy: Strategy) -> Planner {
+    let options = Options { strategy, ..Options::default() };
     Planner::new(model, task, &Restrictions::default(), &options, &Budget::unlimited()).expect("no limits")
 }
 
@@ -69,7 +69,7 @@ fn table(model: &ActionModel, task: &Task) -> String {
     let mut rows = vec![first_row];
     for strategy in Strategy::ALL {
         let budget = for_the_first(strategy);
-        let mut asked = planner(model, task, strategy, 1);
+        let mut asked = planner(model, task, strategy);
         let mut first = None;
         let cheaper = answers(|cost| {
             let outcome = match cost {
@@ -79,7 +79,7 @@ fn table(model: &ActionModel, task: &Task) -> String {
             first.get_or_insert_with(|| counted(&asked.report()));
             outcome
         });
-        let mut several = planner(model, task, strategy, PLANS);
+        let mut several = planner(model, task, strategy);
         let different = answers(|cost| several.next_plan(if cost.is_none() { &budget } else { &further }));
         rows.push([
             strategy.to_string(),

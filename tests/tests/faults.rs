@@ -12,7 +12,7 @@ use typelift::agent::{
 };
 use typelift::imagine;
 use typelift::model::{ActionModel, Budget, GroundCall, ParseConfig, Plan, Step, Stop, Symbol};
-use typelift::plan::{self, Exclusion, TypeExclusion};
+use typelift::plan::{Exclusion, TypeExclusion};
 use typelift::world::{Acted, Parser, Reset, Scene, Verdict, World};
 use typelift_kitchen::{Kitchen, KitchenTask, faults, tasks};
 use typelift_tests::schema::Schema;
@@ -527,8 +527,6 @@ fn saving_and_restoring_changes_no_command() {
     let schema = Schema::named("episode");
     for task in faults() {
         for options in [paper_options(true), going_on()] {
-            let plan = plan::Options { plans: 2, ..options.plan };
-            let options = Options { plan, ..options };
             let restored = |episode: Episode| {
                 let (text, budget) = (episode.save(), Budget::with_expansions(20_000));
                 let json = serde_json::from_str(&text).expect("JSON");

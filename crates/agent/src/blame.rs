@@ -57,6 +57,7 @@ pub struct Condition {
     /// The atom, as it was said of the call with `args`.
     pub atom: GroundAtom,
     /// The objects at the call's places, from 0: where the atom mentions one of them, it speaks of that place.
+    #[serde(deserialize_with = "typelift_model::numbered_keys")]
     pub args: BTreeMap<usize, Symbol>,
 }
 
@@ -185,5 +186,28 @@ impl Known<'_> {
                 deed.participants.iter().any(same)
             })
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn suspects_are_read_as_they_were_written() {
+        let call = || Symbol::new("cut");
+        let object = Exclusion { object: "saw_1".into(), call: Some(call()) };
+        let types = TypeExclusion {
+            call: call(),
+            adds: BTreeSet::new(),
+            types: BTreeMap::from([(0, "saw".into()), (1, "log".into())]),
+        };
+        let atom = GroundAtom::parse("wet(log_1)").expect("an atom");
+        let condition =
+            Condition { call: call(), adds: BTreeSet::new(), atom, args: BTreeMap::from([(1, "log_1".into())]) };
+        for suspect in [Suspect::Object(object), Suspect::Types(types), Suspect::Condition(condition)] {
+            let text = serde_json::to_string(&suspect).expect("JSON");
+            assert_eq!(serde_json::from_str::<Suspect>(&text).map_err(|e| e.to_string()), Ok(suspect), "{text}");
+        }
     }
 }

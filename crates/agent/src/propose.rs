@@ -30,12 +30,12 @@ pub struct Proposal {
 enum Searched {
     /// The own planner, which can go on.
     Own(Box<Planner>),
-    /// Somebody else's: the model and the task that it was asked, with the restrictions in them.
+    /// An external planner: the model and the task that it was asked, with the restrictions in them.
     External(Box<(ActionModel, Task)>),
 }
 
 impl Proposal {
-    /// The counts of grounding and search; nothing if somebody else planned.
+    /// The counts of grounding and search; nothing if an external planner planned.
     pub fn report(&self) -> Report {
         match &self.searched {
             Searched::Own(planner) => {
@@ -63,7 +63,7 @@ impl Proposal {
         task.goal.type_mismatches(&task.init, &self.model)
     }
 
-    /// A further plan, checked. Somebody else's planner is asked only once.
+    /// A further plan, checked. An external planner is asked only once.
     ///
     /// # Errors
     /// [`ProposeError::Invalid`] if the planner's plan is not one.
@@ -113,10 +113,10 @@ pub enum ProposeError {
         /// What is wrong with it.
         error: Invalid,
     },
-    /// Somebody else's planner gave no usable answer.
+    /// The external planner gave no usable answer.
     #[error(transparent)]
     External(#[from] ExternalFailure),
-    /// The plan of somebody else's planner does not survive the check.
+    /// The external planner's plan does not survive the check.
     #[error("the planner's plan is not valid: {error}")]
     ExternalPlan {
         /// The plan.

@@ -40,7 +40,7 @@ pub struct Bridge {
     over: Option<String>,
 }
 
-/// Ends a bridge's child from another thread, for instance when the user interrupts. Whoever waits for an answer
+/// Ends a bridge's child from another thread, for instance when the user interrupts. A call that waits for an answer
 /// gets an error at once.
 #[derive(Debug, Clone)]
 pub struct Stopper(Arc<Process>);

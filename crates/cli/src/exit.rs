@@ -27,9 +27,9 @@ pub(crate) enum Exit {
     Environment = 35,
     /// The command line is wrong.
     Usage = 36,
-    /// Somebody else's planner failed.
+    /// The external planner failed.
     Planner = 38,
-    /// Somebody else's planner gave a plan that is none.
+    /// The external planner gave a plan that is none.
     InvalidPlan = 39,
     /// Somebody stopped it.
     Interrupted = 130,

@@ -36,7 +36,7 @@ enum Command {
         #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse_whole, allow_negative_numbers = true)]
         seed: u64,
     },
-    /// Be the kitchen for somebody else: speak env/1 on standard input and output
+    /// Be the kitchen for another program: speak env/1 on standard input and output
     #[command(after_help = "Example:\n  typelift run model.json task.json --env 'typelift kitchen serve'")]
     Serve,
     /// Hold the simulator against recorded traces

@@ -62,7 +62,7 @@ pub(crate) struct Learn {
     /// Attributes and relations that give no atoms: NAME, or TYPE.NAME
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     ignore: Vec<String>,
-    /// The type of whoever acts, `none` if nobody does [default: what argument 0 of every action has in common]
+    /// The type of the actor, `none` if there is none [default: what argument 0 of every action has in common]
     #[arg(long, value_name = "TYPE")]
     actor: Option<String>,
     /// Do not generalize: individual actions only

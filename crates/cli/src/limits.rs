@@ -101,6 +101,16 @@ impl SearchLimits {
     }
 }
 
+/// What to try next where a limit ended a search, if something can be tried.
+pub(crate) fn what_to_try(stop: Stop) -> Option<&'static str> {
+    match stop {
+        Stop::Expansions => Some("--max-expansions allows more of them; another --search may need fewer"),
+        Stop::Time => Some("--time-limit allows more of it; another --search may need less"),
+        Stop::Memory => Some("--memory-limit allows more of it; another --search may need less"),
+        Stop::Cancelled => None,
+    }
+}
+
 impl Limits {
     /// The time allowed, if it is limited.
     pub(crate) fn time(self) -> Option<Duration> {

@@ -15,7 +15,7 @@ use typelift::world::write_file;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::keep_inputs;
-use crate::limits::{Clock, Interrupt, Limits};
+use crate::limits::{Clock, Interrupt, Limits, what_to_try};
 use crate::memory::memory_held_from_now;
 use crate::plan_file::plan_file;
 use crate::planning_options::PlanningOptions;
@@ -24,6 +24,9 @@ use crate::watchdog::watched;
 
 /// Where the plan for a PDDL problem is written unless the user says otherwise, as Fast Downward does.
 const DEFAULT_OUTPUT: &str = "sas_plan";
+
+/// The expansions that looking for another plan may take, if the user sets no limit.
+const EXPANSIONS_FOR_ANOTHER: u64 = 200_000;
 
 /// Nodes that are expanded to find out whether a hint holds.
 const HINT_EXPANSIONS: u64 = 20_000;
@@ -45,7 +48,7 @@ pub(crate) struct Plan {
     /// The task: a goal and a state to start from; or a problem of the PDDL domain
     #[arg(index = 2)]
     task: PathBuf,
-    /// Find so many different plans
+    /// Find so many plans of which none makes all calls of one before it
     #[arg(long, value_name = "N", default_value_t = 1, allow_negative_numbers = true,
         value_parser = clap::value_parser!(u64).range(1..=1000), conflicts_with = "planner")]
     plans: u64,
@@ -82,6 +85,8 @@ impl Plan {
         };
         let mut out = anstream::stdout().lock();
         let mut plans: Vec<FoundPlan> = Vec::new();
+        // That there is no other plan can take for ever to find out.
+        let for_another = Budget { expansions: budget.expansions.or(Some(EXPANSIONS_FOR_ANOTHER)), ..budget.clone() };
         let last = loop {
             let outcome = proposal.outcome.clone();
             let Outcome::Solved(plan) = outcome else { break outcome };
@@ -105,7 +110,7 @@ impl Plan {
             proposal.outcome = if self.better {
                 proposal.better_plan(plans.last().map_or(0, FoundPlan::cost), &budget)?
             } else {
-                proposal.next_plan(&budget)?
+                proposal.next_plan(&for_another)?
             };
         };
         self.write_plans(output.as_deref(), &plans, &proposal.model, &task)?;
@@ -130,7 +135,7 @@ impl Plan {
     }
 
     /// Reads, grounds, and searches for the first plan. A watchdog ends the program if reading takes more than is allowed;
-    /// somebody else's planner is ended by whom it was started.
+    /// an external planner is ended by what started it.
     fn begin_watched(&self, clock: Clock, budget: &Budget, quiet: bool) -> Result<FirstAnswer, Failure> {
         let json = self.planning.json;
         let limits = if self.planning.planner.is_given() { Limits::default() } else { self.planning.limits.limits };
@@ -150,18 +155,12 @@ impl Plan {
         let output = self.output.clone().or(default_output);
         let (model, task) = input.read_planning_task(&self.task, quiet)?;
         let read = clock.elapsed();
-        let options = self.options(is_given)?;
+        let options = self.planning.agent_options(is_given)?;
         let proposal = match propose(&model, &task, &Restrictions::default(), &options, budget) {
             Err(ProposeError::Stopped(stop)) => Err(stop),
             proposal => Ok(proposal?),
         };
         Ok(FirstAnswer { model, task, output, read, proposal })
-    }
-
-    fn options(&self, is_given: bool) -> Result<Options, Failure> {
-        let mut options = self.planning.agent_options(is_given)?;
-        options.plan.plans = self.plans as usize;
-        Ok(options)
     }
 
     fn print(
@@ -229,6 +228,12 @@ impl Plan {
         for line in why.lines() {
             anstream::eprintln!("{BAD}no plan{BAD:#}: {line}");
         }
+        if let Outcome::Stopped(stop) = outcome
+            && !self.planning.planner.is_given()
+            && let Some(advice) = what_to_try(*stop)
+        {
+            anstream::eprintln!("{HINT}hint{HINT:#}: {advice}");
+        }
         if explanation.is_none() || self.hint_at_imagining(outcome, model, task, budget) {
             return;
         }
@@ -243,7 +248,7 @@ impl Plan {
             return false;
         }
         let limited = Budget { expansions: Some(HINT_EXPANSIONS), ..budget.clone() };
-        let Ok(options) = self.options(false) else { return false };
+        let Ok(options) = self.planning.agent_options(false) else { return false };
         let options = Options { imagine: Some(imagine::Options::default()), ..options };
         let imagined = propose(model, task, &Restrictions::default(), &options, &limited);
         let Ok(Proposal { outcome: Outcome::Solved(plan), .. }) = imagined else { return false };
@@ -258,8 +263,14 @@ impl Plan {
     /// Says why there are no more plans, where more were wanted.
     fn report_end(&self, outcome: &Outcome, found: usize) {
         if self.better || (found as u64) < self.plans {
+            let why = match outcome {
+                Outcome::NoMorePlans if !self.better => {
+                    "any other takes the steps of one of these in another order, or adds to them".to_owned()
+                }
+                outcome => ending(outcome),
+            };
             let what = if self.better { "no better plan" } else { "no further plan" };
-            anstream::eprintln!("{what}: {}", ending(outcome));
+            anstream::eprintln!("{what}: {why}");
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Who plans, and how: `--search`, or somebody else's planner with `--planner`.
+//! Who plans, and how: `--search`, or an external planner with `--planner`.
 
 use std::sync::Arc;
 
@@ -12,8 +12,8 @@ use crate::failure::Failure;
 /// Which planner plans.
 #[derive(Debug, Clone, clap::Args)]
 pub(crate) struct PlannerOption {
-    /// Search like this: ordered-landmarks, lama, lazy-ff, lazy-landmarks, or for an optimal plan astar-lmcut,
-    /// astar-blind [default: ordered-landmarks for learned models, lama for PDDL]
+    /// Search like this: ordered-first, ordered-landmarks, lama, lazy-ff, lazy-landmarks, or for an optimal plan
+    /// astar-lmcut, astar-blind [default: ordered-first for learned models, lama for PDDL]
     #[arg(long, value_name = "SEARCH", conflicts_with = "planner")]
     search: Option<Strategy>,
     /// Have this command plan; it is given {domain} and {problem}, and writes {plan}
@@ -50,7 +50,7 @@ impl PlannerOption {
 
     /// How typelift's own planner searches, with a model that was given as PDDL or one that was learned.
     pub(crate) fn strategy(&self, is_given: bool) -> Strategy {
-        self.search.unwrap_or(if is_given { Strategy::LamaPortfolio } else { Strategy::OrderedLandmarks })
+        self.search.unwrap_or(if is_given { Strategy::LamaPortfolio } else { Strategy::OrderedFirst })
     }
 
     /// The planner, if there is one.

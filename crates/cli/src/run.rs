@@ -18,17 +18,14 @@ use crate::confirm::{Which, confirm};
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::{TaskInput, keep_inputs, task_name};
-use crate::limits::{Clock, Interrupt};
+use crate::limits::{Clock, Interrupt, what_to_try};
 use crate::narrate::Narrator;
 use crate::planning_options::PlanningOptions;
 use crate::quantities::{parse_duration, parse_whole};
-use crate::style::{HEAD, painted};
+use crate::style::{HEAD, HINT, painted};
 
 /// Expansions of one search, unless the user says otherwise: an agent that acts must not think for ever.
 const EXPANSIONS: u64 = 200_000;
-
-/// How many ways to a state are kept where somebody may ask for another plan.
-const PLANS_TO_CHOOSE_FROM: usize = 4;
 
 /// Carry out tasks in an environment
 #[derive(Debug, clap::Args)]
@@ -184,6 +181,12 @@ impl Run {
                 }
             }
             out.flush()?;
+            if let Ending::Stopped(stop) = account.ending
+                && let Some(advice) = what_to_try(stop)
+                && !self.planning.planner.is_given()
+            {
+                anstream::eprintln!("{HINT}hint{HINT:#}: {advice}");
+            }
             if account.ending == Ending::Stopped(Stop::Cancelled) {
                 world.close()?;
                 return Ok(if interrupt.is_set() { Exit::Interrupted } else { Exit::NotAchieved });
@@ -217,17 +220,13 @@ impl Run {
     }
 
     fn options(&self, is_given: bool) -> Result<Options, Failure> {
-        let mut options = Options {
+        Ok(Options {
             restart: self.restart,
             retries: self.retries,
             max_proposals: self.max_proposals,
             instance: self.instance.as_deref().map(Symbol::new),
             ..self.planning.agent_options(is_given)?
-        };
-        if self.confirm.is_some() {
-            options.plan.plans = PLANS_TO_CHOOSE_FROM;
-        }
-        Ok(options)
+        })
     }
 
     /// How the environment is set up: as the task says, or, in the kitchen, from the state that it gives.

@@ -95,7 +95,7 @@ where
     /// Opens the log of a folder, which is made if it is not there; with `fresh`, without what was there.
     ///
     /// # Errors
-    /// [`FileError`] if the folder cannot be written to, if somebody else is writing to it, if the runs there are of
+    /// [`FileError`] if the folder cannot be written to, if another process is writing to it, if the runs there are of
     /// another experiment, version or settings, or if a line cannot be read. Nothing is changed then.
     pub fn open(folder: &Path, header: Header, fresh: bool) -> Result<Self, FileError> {
         create_dir_all(folder).map_err(|error| match error.kind() {
@@ -107,7 +107,7 @@ where
         let mut options = OpenOptions::new();
         let mut file = options.read(true).write(true).create(true).truncate(false).open(&path).map_err(failed)?;
         if matches!(file.try_lock(), Err(TryLockError::WouldBlock)) {
-            return Err(FileError::new(&path, "somebody else is writing here")
+            return Err(FileError::new(&path, "another process is writing here")
                 .with_hint("Wait until that is done, or write to another folder.".to_owned()));
         }
         let mut bytes = Vec::new();
@@ -327,6 +327,6 @@ mod tests {
         let _first = Log::open(folder.path(), header(), false).expect("a log");
         // What is locked cannot even be read on Windows.
         let second = Log::open(folder.path(), header(), false).expect_err("it is refused");
-        assert_eq!(second.what, "somebody else is writing here");
+        assert_eq!(second.what, "another process is writing here");
     }
 }

@@ -8,7 +8,7 @@
 //! | anything else: nothing, `nothing`, `partly`, `otherwise` | what its states show                   |
 //!
 //! What its states show is an observation of an action, if something changed, and a failure, if nothing did. A change
-//! that somebody else made, or an accident on the way, is not what an action does: what a step that was not executed
+//! that another made, or an accident on the way, is not what an action does: what a step that was not executed
 //! left behind is counted, with its places, and nothing is learned from it.
 
 use typelift_world::{TraceAction, Verdict};

@@ -16,7 +16,7 @@ pub struct ActionModel {
     /// Every predicate with the types of its arguments: as declared, or the lowest that cover all that it was seen of. An
     /// imagined action or a task may go beyond.
     pub predicates: ArgumentTypes,
-    /// The type of whoever acts, if there is one: it is not blamed when a step fails.
+    /// The type of the actor, if there is one: it is not blamed when a step fails.
     pub actor: Option<TypeId>,
     /// The objects that actions and axioms mention by name, with their types. Every task has them.
     pub constants: BTreeMap<Symbol, TypeId>,

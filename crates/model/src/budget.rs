@@ -1,4 +1,4 @@
-//! What an algorithm may spend. Algorithms never look at a clock: whoever knows the time hands in a closure.
+//! What an algorithm may spend. Algorithms never look at a clock: the caller hands in a closure.
 
 use std::fmt;
 use std::sync::Arc;
@@ -64,11 +64,11 @@ impl<'de> Deserialize<'de> for Stop {
     }
 }
 
-/// Tells how many bytes are held. It is asked as often as the time is: whoever has to ask the system repeats the last
+/// Tells how many bytes are held. It is asked as often as the time is: a probe that has to ask the system repeats the last
 /// answer for a while.
 pub type MemoryProbe = Arc<dyn Fn() -> u64 + Send + Sync>;
 
-/// How much memory may be held, by the word of whoever can tell.
+/// How much memory may be held, as a probe tells.
 #[derive(Clone)]
 pub struct MemoryLimit {
     /// The bytes allowed: as soon as so many are held, the work ends.

@@ -91,7 +91,7 @@ impl FromIterator<(SourceId, Symbol, Observations)> for Evidence {
 }
 
 impl Evidence {
-    /// A sum of which nobody knows, or keeps, what each of these sources contributed.
+    /// A sum of which it is unknown, or not kept, what each of these sources contributed.
     pub fn of_total(sources: BTreeMap<SourceId, Source>, total: Observations) -> Self {
         Self { sources, observed: Observed::Total(Box::new(total)) }
     }

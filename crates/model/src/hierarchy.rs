@@ -51,7 +51,7 @@ pub enum HierarchyError {
 }
 
 impl HierarchyError {
-    /// The type that the error is about, for whoever can point at its declaration.
+    /// The type that the error is about, for a reader that can point at its declaration.
     pub fn subject(&self) -> &str {
         match self {
             Self::TwoParents { child, .. } => child.as_str(),
@@ -88,7 +88,7 @@ impl Default for Hierarchy {
 }
 
 impl Hierarchy {
-    /// The tree given by `(child, parent)` pairs. A parent that is nobody's child hangs below `object`; the same
+    /// The tree given by `(child, parent)` pairs. A parent that has no parent hangs below `object`; the same
     /// pair twice is harmless.
     ///
     /// # Errors

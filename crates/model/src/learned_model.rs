@@ -46,7 +46,7 @@ pub struct LearnOptions {
     /// Stop after the first phase: individual actions, the paper's baseline.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub individual: bool,
-    /// The type of whoever acts. `None`: the type that fills argument 0 of every action and no other parameter.
+    /// The type of the actor. `None`: the type that fills argument 0 of every action and no other parameter.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub actor: Option<Actor>,
 }
@@ -58,7 +58,7 @@ pub struct LearnOptions {
 pub enum Actor {
     /// Objects of this type act.
     Type(Symbol),
-    /// Nobody in the state acts.
+    /// No object of the state acts.
     Nobody,
 }
 

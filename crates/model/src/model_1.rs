@@ -1,5 +1,5 @@
 //! The format before, `model/1`, which is still read. It had numbers of arguments where there are types now, and evidence
-//! as a single sum whose sources nobody knows; whether an action is strict and how plan files name it followed from its
+//! as a single sum whose sources are unknown; whether an action is strict and how plan files name it followed from its
 //! provenance.
 
 use std::collections::{BTreeMap, BTreeSet};

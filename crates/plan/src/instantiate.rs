@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use typelift_model::{ActionSchema, GroundAtom, Stop, Symbol};
+use typelift_model::{ActionSchema, GroundAtom, GroundCall, Stop, Symbol};
 
 use crate::Ban;
 use crate::fact::{FactId, ObjectId};
@@ -136,16 +136,17 @@ impl Join<'_> {
                 return true;
             }
         }
-        if self.restrictions.banned.is_empty() {
+        if self.restrictions.banned.is_empty() && self.restrictions.calls.is_empty() {
             return false;
         }
         let objects: Vec<Symbol> = op.objects.iter().map(|&o| self.facts.name(o).clone()).collect();
         let args = || schema.call.args.iter().map(|term| term.object(&objects));
+        let is_of = |call: &GroundCall| call.name == schema.call.name && args().eq(call.args.iter().cloned());
         let conditional = schema.effects.iter().any(|effect| !effect.is_unconditional());
-        self.restrictions.banned.iter().any(|ban| {
-            let same_call = ban.call.name == schema.call.name && args().eq(ban.call.args.iter().cloned());
-            same_call && if conditional { ban.action == schema.name } else { self.effect_is(op, ban) }
-        })
+        let is_banned = |ban: &Ban| {
+            is_of(&ban.call) && if conditional { ban.action == schema.name } else { self.effect_is(op, ban) }
+        };
+        self.restrictions.calls.iter().any(is_of) || self.restrictions.banned.iter().any(is_banned)
     }
 
     /// Whether the unconditional effect of a ground action is the one that was banned.

@@ -67,17 +67,18 @@ impl LamaPortfolio {
         self.space.task.goal.len() <= MOST_GOALS_IN_ORDER
     }
 
-    /// For a first plan: the search with ordered landmarks, if it has a part, LAMA's with two kinds of preferred actions, and
-    /// a restarting LAMA.
+    /// For a first plan: the search with ordered landmarks, if it has a part, and the lazy ones.
     pub(crate) fn in_turn(self, in_order: Option<AStar>) -> Portfolio {
-        let member = |search: Box<dyn Search>| Member { search, weight: 1 };
-        let mut members: Vec<Member> = Vec::new();
-        members.extend(in_order.map(|search| Member { search: Box::new(search), weight: EAGER }));
-        for preference in [Preference::Helpful, Preference::Preferred] {
-            members.push(member(Box::new(self.search(preference))));
-        }
-        members.push(member(Box::new(Restarts::new(Box::new(self)))));
-        Portfolio::new(members)
+        let in_order = in_order.map(|search| Member { search: Box::new(search), weight: EAGER });
+        Portfolio::new(in_order.into_iter().chain(self.lazy_members()).collect())
+    }
+
+    /// LAMA's search with two kinds of preferred actions, and a restarting LAMA.
+    pub(crate) fn lazy_members(self) -> Vec<Member> {
+        let (helpful, preferred) = (self.search(Preference::Helpful), self.search(Preference::Preferred));
+        let restarts = Restarts::new(Box::new(self));
+        let searches: [Box<dyn Search>; 3] = [Box::new(helpful), Box::new(preferred), Box::new(restarts)];
+        searches.into_iter().map(|search| Member { search, weight: 1 }).collect()
     }
 }
 

@@ -16,6 +16,7 @@
 #![deny(missing_docs)]
 
 mod alike;
+mod alternatives;
 mod assignment;
 mod axioms;
 mod distinct;
@@ -31,6 +32,7 @@ mod landmark;
 mod level;
 mod op;
 mod options;
+mod ordered_first;
 mod outcome;
 mod packed_lists;
 mod pattern;

@@ -10,12 +10,10 @@ pub struct Options {
     pub strategy: Strategy,
     /// In which order successors are tried.
     pub tie_order: TieOrder,
-    /// How many plans will be asked for: so many different ways to each node are kept. 1 is the plain search.
-    pub plans: usize,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { strategy: Strategy::default(), tie_order: TieOrder::SpecificFirst, plans: 1 }
+        Self { strategy: Strategy::default(), tie_order: TieOrder::SpecificFirst }
     }
 }

@@ -3,7 +3,7 @@
 //!
 //! What is restricted becomes a static predicate that must not hold: `excluded-from-CALL` of every object that may not
 //! take part in actions of this call, `unfit-for-SCHEMA` of objects whose types may not meet in it, `banned-SCHEMA` of
-//! the parameters of every banned instance of a schema.
+//! the parameters of every banned instance of a schema, `not-made-CALL` of the arguments of every call that is not made.
 //!
 //! Our own planner gets the restrictions themselves, although it could be asked in this way too. Measured on 2026-11-26: in the
 //! laboratory's experiment with faults (1,065 plannings) plans, expansions and ground actions are the same both ways, and
@@ -28,6 +28,7 @@ impl Restrictions {
         compiled.exclude(self);
         compiled.exclude_types(self, model, task);
         compiled.ban(self, model, task);
+        compiled.leave_out_calls(self);
         (compiled.model, compiled.task)
     }
 }
@@ -90,6 +91,21 @@ impl Compiled {
             let predicate = self.static_predicate(&format!("banned-{}", schema.name), arity, banned);
             let parameters = (0..arity as u32).map(Term::Param).collect();
             forbid(&mut self.model.actions[index], [LiftedAtom::new(predicate, parameters)]);
+        }
+    }
+
+    fn leave_out_calls(&mut self, restrictions: &Restrictions) {
+        let mut tuples: BTreeMap<(&Symbol, usize), Vec<Vec<Symbol>>> = BTreeMap::new();
+        for call in &restrictions.calls {
+            tuples.entry((&call.name, call.args.len())).or_default().push(call.args.clone());
+        }
+        for ((call, arity), tuples) in tuples {
+            let predicate = self.static_predicate(&format!("not-made-{call}"), arity, tuples);
+            let same = |action: &&mut ActionSchema| action.call.name == *call && action.call.args.len() == arity;
+            for action in self.model.actions.iter_mut().filter(same) {
+                let atom = LiftedAtom::new(predicate.clone(), action.call.args.clone());
+                forbid(action, [atom]);
+            }
         }
     }
 

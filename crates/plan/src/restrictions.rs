@@ -35,6 +35,7 @@ pub struct TypeExclusion {
     /// of those the ones that add atoms of all these predicates; of all if there are none.
     pub adds: BTreeSet<Symbol>,
     /// The types' names, by their places among the call's arguments, from 0.
+    #[serde(deserialize_with = "typelift_model::numbered_keys")]
     pub types: BTreeMap<usize, Symbol>,
 }
 
@@ -92,7 +93,7 @@ impl Ban {
     }
 }
 
-/// Objects, types at places and ground actions that grounding leaves out.
+/// Objects, types at places, ground actions and calls that grounding leaves out.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Restrictions {
@@ -102,6 +103,9 @@ pub struct Restrictions {
     pub types: BTreeSet<TypeExclusion>,
     /// Banned ground actions.
     pub banned: BTreeSet<Ban>,
+    /// Calls that are not made, whatever they are expected to do.
+    #[serde(default, skip_serializing_if = "BTreeSet::is_empty")]
+    pub calls: BTreeSet<GroundCall>,
 }
 
 impl Restrictions {

@@ -1,8 +1,8 @@
-//! The searches of a strategy, one after another: for the first plan, for cheaper plans, for different plans.
+//! The searches of a strategy, one after the other: for a first plan, and for cheaper ones.
 //!
 //! A* goes on to all of its plans. A lazy search closes each state after its first way there; so cheaper plans are looked
 //! for by another search, which ranks by the costs so far too, with a smaller and smaller weight on the estimate (Richter,
-//! Thayer and Ruml 2010), and different ones by the paper's, which keeps several ways to each state.
+//! Thayer and Ruml 2010).
 
 use std::sync::Arc;
 
@@ -11,6 +11,7 @@ use typelift_model::{Budget, GroundAtom, Stop};
 use crate::heuristic::{Blind, CostMeasure, LandmarkCount, LmCut, OrderedLandmarks};
 use crate::lama::{LamaPortfolio, RelaxedPlans};
 use crate::landmark::{LandmarkGraph, sequences};
+use crate::ordered_first::OrderedFirst;
 use crate::poll::Poll;
 use crate::relaxation::{Negatives, Relaxation};
 use crate::report::Report;
@@ -50,8 +51,6 @@ impl Stage {
 #[derive(Debug)]
 pub(crate) struct Stages {
     space: Arc<Space>,
-    /// How many ways to each state a search keeps, if it can keep several.
-    plans: usize,
     strategy: Strategy,
     stage: Stage,
     search: Box<dyn Search>,
@@ -61,14 +60,14 @@ pub(crate) struct Stages {
 }
 
 impl Stages {
-    /// The first stage of a strategy; `plans` is how many ways to each state it keeps, if it can keep several.
+    /// The first stage of a strategy.
     ///
     /// # Errors
     /// [`Stop`] if the budget ends the work on landmarks and relaxation.
-    pub(crate) fn new(space: Arc<Space>, strategy: Strategy, plans: usize, budget: &Budget) -> Result<Self, Stop> {
-        let search = begin(strategy, Stage::First, &space, plans, budget)?;
+    pub(crate) fn new(space: Arc<Space>, strategy: Strategy, budget: &Budget) -> Result<Self, Stop> {
+        let search = begin(strategy, Stage::First, &space, budget)?;
         let past = Report::default();
-        Ok(Self { space, plans, strategy, stage: Stage::First, search, has_found: false, past })
+        Ok(Self { space, strategy, stage: Stage::First, search, has_found: false, past })
     }
 
     /// Whether this search finds all plans, however many and however cheap.
@@ -82,20 +81,24 @@ impl Stages {
             return Ok(());
         }
         match cost_bound {
-            None => self.turn_to(Strategy::OrderedLandmarks, Stage::First, budget),
-            Some(_) if self.stage == Stage::First => self.turn_to(self.strategy, self.stage.next(), budget),
-            Some(_) => Ok(()),
+            Some(_) if self.stage == Stage::First => self.turn_to(self.stage.next(), budget),
+            _ => Ok(()),
         }
     }
 
-    fn turn_to(&mut self, strategy: Strategy, stage: Stage, budget: &Budget) -> Result<(), Stop> {
-        if (strategy, stage) == (self.strategy, self.stage) {
+    fn turn_to(&mut self, stage: Stage, budget: &Budget) -> Result<(), Stop> {
+        if stage == self.stage {
             return Ok(());
         }
-        let search = begin(strategy, stage, &self.space, self.plans, budget)?;
+        let search = begin(self.strategy, stage, &self.space, budget)?;
         self.past += self.search.report();
-        (self.strategy, self.stage, self.search) = (strategy, stage, search);
+        (self.stage, self.search) = (stage, search);
         Ok(())
+    }
+
+    /// What is searched.
+    pub(crate) fn space(&self) -> &Space {
+        &self.space
     }
 }
 
@@ -109,7 +112,7 @@ impl Search for Stages {
             self.has_found = true;
             if cost_bound.is_some() && !self.is_one_for_all() {
                 // If there is no time to prepare the next stage, this one goes on.
-                let _ = self.turn_to(self.strategy, self.stage.next(), budget);
+                let _ = self.turn_to(self.stage.next(), budget);
             }
         }
         found
@@ -129,23 +132,20 @@ impl Search for Stages {
 }
 
 /// The search of a strategy for a stage.
-fn begin(
-    strategy: Strategy,
-    stage: Stage,
-    space: &Arc<Space>,
-    plans: usize,
-    budget: &Budget,
-) -> Result<Box<dyn Search>, Stop> {
+fn begin(strategy: Strategy, stage: Stage, space: &Arc<Space>, budget: &Budget) -> Result<Box<dyn Search>, Stop> {
     let mut poll = Poll::new(budget);
     let (task, ranking) = (&space.task, stage.ranking());
     Ok(match strategy {
-        Strategy::OrderedLandmarks => Box::new(in_order(space, plans, budget)?),
+        Strategy::OrderedLandmarks => Box::new(in_order(space, budget)?),
+        Strategy::OrderedFirst if stage == Stage::First => {
+            Box::new(OrderedFirst::new(Arc::clone(space), ranking, in_order(space, budget)?))
+        }
         Strategy::AStarLmCut => {
             let relaxation = Relaxation::new(task, Negatives::Propositions, &mut poll)?;
             let lm_cut = LmCut::new(task, Arc::new(relaxation));
-            Box::new(AStar::new(Arc::clone(space), Box::new(lm_cut), true, plans))
+            Box::new(AStar::new(Arc::clone(space), Box::new(lm_cut), true))
         }
-        Strategy::AStarBlind => Box::new(AStar::new(Arc::clone(space), Box::new(Blind::new(task)), true, plans)),
+        Strategy::AStarBlind => Box::new(AStar::new(Arc::clone(space), Box::new(Blind::new(task)), true)),
         Strategy::LazyFf => {
             let relaxed = RelaxedPlans::new(task, ranking.measure, &mut poll)?;
             Box::new(Lazy::new(Arc::clone(space), ranking, vec![Box::new(relaxed.ff())], Preference::Preferred))
@@ -156,11 +156,11 @@ fn begin(
             let count = LandmarkCount::new(graph, task, &relaxation);
             Box::new(Lazy::new(Arc::clone(space), ranking, vec![Box::new(count)], Preference::None))
         }
-        Strategy::LamaPortfolio => {
+        Strategy::OrderedFirst | Strategy::LamaPortfolio => {
             let lama = LamaPortfolio::new(Arc::clone(space), ranking, &mut poll)?;
             match stage {
                 Stage::First => {
-                    let in_order = lama.takes_in_order().then(|| in_order(space, 1, budget)).transpose()?;
+                    let in_order = lama.takes_in_order().then(|| in_order(space, budget)).transpose()?;
                     Box::new(lama.in_turn(in_order))
                 }
                 Stage::Weighted(_) => Box::new(lama.search(Preference::Helpful)),
@@ -170,7 +170,7 @@ fn begin(
 }
 
 /// The paper's search.
-fn in_order(space: &Arc<Space>, plans: usize, budget: &Budget) -> Result<AStar, Stop> {
+fn in_order(space: &Arc<Space>, budget: &Budget) -> Result<AStar, Stop> {
     let heuristic = OrderedLandmarks::new(sequences(&space.ground, &space.task, budget)?);
-    Ok(AStar::new(Arc::clone(space), Box::new(heuristic), false, plans))
+    Ok(AStar::new(Arc::clone(space), Box::new(heuristic), false))
 }

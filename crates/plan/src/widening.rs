@@ -12,6 +12,15 @@ use crate::scope::{EAGERLY, LAZILY, Scopes};
 use crate::search::{Found, Search};
 use crate::strategy::Strategy;
 
+/// What is planned, and how.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Asked<'a> {
+    pub(crate) model: &'a ActionModel,
+    pub(crate) task: &'a Task,
+    pub(crate) restrictions: &'a Restrictions,
+    pub(crate) options: &'a Options,
+}
+
 /// A task, searched level by level.
 #[derive(Debug)]
 pub(crate) struct Widening {
@@ -46,7 +55,7 @@ impl Widening {
     ) -> Result<Self, Stop> {
         let mut scopes = match options.strategy {
             strategy if strategy.is_optimal() => Scopes::whole(),
-            Strategy::OrderedLandmarks => Scopes::of(model, task, restrictions, EAGERLY),
+            Strategy::OrderedFirst | Strategy::OrderedLandmarks => Scopes::of(model, task, restrictions, EAGERLY),
             _ => Scopes::of(model, task, restrictions, LAZILY),
         };
         let groundings = reachable.as_ref().map_or(0, Reachable::computed);
@@ -91,6 +100,12 @@ impl Widening {
             self.past += level.report();
             self.scopes.advance();
         }
+    }
+
+    /// What is planned, and how.
+    pub(crate) fn asked(&self) -> Asked<'_> {
+        let Self { model, task, restrictions, options, .. } = self;
+        Asked { model, task, restrictions, options }
     }
 
     /// The level that is searched now.

@@ -2,30 +2,50 @@
 //! enumeration finds; a plan is found exactly if there is one, survives the plainest replay, and is a cheapest one where
 //! that is promised; further plans are different ones.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use proptest::prelude::*;
 use typelift_check::check;
 use typelift_model::testing::{
-    Cheapest, Instance, Tiny, all_instances, cases, cheapest, reachable_atoms, reachable_instances, tiny,
+    Cheapest, Instance, Tiny, all_instances, apply, cases, cheapest, reachable_atoms, reachable_instances, tiny,
 };
 use typelift_model::{
-    ActionModel, ActionSchema, Atom, Budget, Effect, GroundAtom, LiftedCall, Literal, Plan, Provenance, Symbol, Task,
+    ActionModel, ActionSchema, Atom, Budget, Effect, GroundAtom, GroundCall, LiftedCall, Literal, Plan, Provenance,
+    Symbol, Task,
 };
 use typelift_plan::{
     FactId, GroundTask, Op, OpId, Options, Outcome, Planner, Restrictions, Strategy, TieOrder, ground,
 };
 
-/// Enough for every problem that is solved at all.
-const EXPANSIONS: u64 = 20_000;
+/// So many plans of a task are looked at.
+const MOST: usize = 12;
 
-/// The actions of a plan with their number, whatever their order.
-fn multiset(plan: &Plan) -> BTreeMap<(Symbol, Vec<Symbol>), usize> {
-    let mut actions = BTreeMap::new();
-    for step in &plan.steps {
-        *actions.entry((step.action.clone(), step.objects.clone())).or_default() += 1;
+/// The calls of a plan, whatever their order and number.
+type Calls = BTreeSet<GroundCall>;
+
+fn calls(plan: &Plan) -> Calls {
+    plan.steps.iter().map(|step| step.call.clone()).collect()
+}
+
+/// The calls of every plan of at most four steps in which no state comes twice.
+fn short_plans(model: &ActionModel, instances: &[Instance], task: &Task) -> BTreeSet<Calls> {
+    let (mut plans, mut ways) = (BTreeSet::new(), vec![(vec![task.init.atoms.clone()], Calls::new())]);
+    while let Some((states, taken)) = ways.pop() {
+        let Some(state) = states.last() else { continue };
+        if task.goal.literals().all(|(atom, positive)| state.contains(atom) == positive) {
+            plans.insert(taken);
+        } else if states.len() <= 4 {
+            for instance in instances {
+                if let Some(next) = apply(instance, state).filter(|next| !states.contains(next)) {
+                    let mut taken = taken.clone();
+                    let schema = model.action(instance.action.as_str()).expect("it was instantiated");
+                    taken.insert(schema.step(instance.objects.clone(), 0).call);
+                    ways.push((states.iter().cloned().chain([next]).collect(), taken));
+                }
+            }
+        }
     }
-    actions
+    plans
 }
 
 fn grounded(model: &ActionModel, task: &Task) -> GroundTask {
@@ -76,29 +96,18 @@ proptest! {
         let cheapest = cheapest(&all_instances(&model, &task), &task, 5_000);
         prop_assume!(cheapest != Cheapest::TooMany);
         let solvable = cheapest != Cheapest::None;
-        let planner = |tie_order, plans| {
-            let options = Options { tie_order, plans, ..Options::default() };
+        let planner = |tie_order| {
+            let options = Options { tie_order, ..Options::default() };
             Planner::new(&model, &task, &Restrictions::default(), &options, &Budget::unlimited()).expect("no limits")
         };
-        // Several ways to each node.
-        let mut several = planner(TieOrder::default(), 3);
-        let mut plans = Vec::new();
-        while let Outcome::Solved(plan) = several.next_plan(&Budget::with_expansions(EXPANSIONS)) {
-            prop_assert_eq!(check(&model, &task, &plan).err(), None);
-            plans.push(multiset(&plan));
-            if plans.len() == 4 {
-                break;
-            }
-        }
-        prop_assert_eq!(!plans.is_empty(), solvable);
-        prop_assert_eq!(plans.iter().collect::<BTreeSet<_>>().len(), plans.len());
         if !solvable {
-            prop_assert_eq!(several.next_plan(&Budget::unlimited()), Outcome::Unsolvable);
-            prop_assert!(!several.explain().to_string().is_empty());
+            let mut planner = planner(TieOrder::default());
+            prop_assert_eq!(planner.next_plan(&Budget::unlimited()), Outcome::Unsolvable);
+            prop_assert!(!planner.explain().to_string().is_empty());
         }
-        // The plain search, in every order; asked for better plans, it ends with the cheapest.
+        // In every order; asked for better plans, it ends with the cheapest.
         for tie_order in [TieOrder::SpecificFirst, TieOrder::GeneralFirst, TieOrder::Name] {
-            let mut planner = planner(tie_order, 1);
+            let mut planner = planner(tie_order);
             let mut outcome = planner.next_plan(&Budget::unlimited());
             let mut cost = None;
             while let Outcome::Solved(plan) = &outcome {
@@ -139,23 +148,49 @@ proptest! {
                 }
                 _ => prop_assert_eq!((costs.last(), outcome), (None, Outcome::Unsolvable), "{}", strategy),
             }
-            // Further plans are different ones.
-            let mut asked = planner();
-            let mut plans = Vec::new();
-            while let Outcome::Solved(plan) = asked.next_plan(&Budget::with_expansions(EXPANSIONS)) {
-                prop_assert_eq!(check(&model, &task, &plan).err(), None, "{}", strategy);
-                plans.push(multiset(&plan));
-                if plans.len() == 3 {
+        }
+    }
+
+    #[test]
+    fn further_plans_are_all_that_do_not_contain_another(Tiny { model, task } in tiny(3)) {
+        let instances = all_instances(&model, &task);
+        prop_assume!(cheapest(&instances, &task, 5_000) != Cheapest::TooMany);
+        let short = short_plans(&model, &instances, &task);
+        for strategy in Strategy::ALL {
+            let options = Options { strategy, ..Options::default() };
+            let mut planner =
+                Planner::new(&model, &task, &Restrictions::default(), &options, &Budget::unlimited()).expect("no limits");
+            let (mut given, mut costs): (Vec<Calls>, Vec<u64>) = (Vec::new(), Vec::new());
+            let mut outcome = planner.next_plan(&Budget::unlimited());
+            while let Outcome::Solved(plan) = &outcome {
+                prop_assert_eq!(check(&model, &task, plan).err(), None, "{}", strategy);
+                let calls = calls(plan);
+                prop_assert!(!given.iter().any(|known| known.is_subset(&calls)), "{}: {:?} is no other", strategy, calls);
+                if !given.is_empty() {
+                    for step in 0..plan.len() {
+                        let mut steps = plan.steps.clone();
+                        steps.remove(step);
+                        prop_assert!(check(&model, &task, &Plan { steps }).is_err(), "{}: step {} is useless", strategy, step);
+                    }
+                }
+                given.push(calls);
+                costs.push(plan.cost());
+                if given.len() == MOST {
                     break;
                 }
+                outcome = planner.next_plan(&Budget::unlimited());
             }
-            prop_assert_eq!(plans.iter().collect::<BTreeSet<_>>().len(), plans.len(), "{}", strategy);
+            prop_assert!(!strategy.is_optimal() || costs.is_sorted(), "{}: {:?}", strategy, costs);
+            if given.len() < MOST {
+                let missed = short.iter().find(|plan| !given.iter().any(|known| known.is_subset(plan)));
+                prop_assert_eq!(missed, None, "{}: {:?}", strategy, given);
+            }
         }
     }
 }
 
 #[test]
-fn a_further_plan_may_differ_in_any_action() {
+fn a_plan_with_a_step_more_is_no_other_plan() {
     let action = |name: &str, add: &str| ActionSchema {
         name: Symbol::new(name),
         call: LiftedCall { name: Symbol::new(name), args: Vec::new() },
@@ -168,18 +203,31 @@ fn a_further_plan_may_differ_in_any_action() {
         named_by_call: true,
         provenance: Provenance::Given,
     };
-    for detour in ["a", "z"] {
-        let mut actions = vec![action(detour, "noise"), action("b", "done")];
+    let planner = |names: &[(&str, &str)]| {
+        let mut actions: Vec<_> = names.iter().map(|(name, add)| action(name, add)).collect();
         actions.sort_by(|a, b| a.name.cmp(&b.name));
         let model = ActionModel { actions, ..ActionModel::default() };
         let task = Task::new(Default::default(), vec![GroundAtom::new("done", Vec::new())]);
-        let options = Options { plans: 2, ..Options::default() };
-        let mut planner =
-            Planner::new(&model, &task, &Restrictions::default(), &options, &Budget::unlimited()).expect("no limits");
-        let lengths = [(); 2].map(|()| match planner.next_plan(&Budget::unlimited()) {
-            Outcome::Solved(plan) => plan.len(),
-            other => panic!("{detour}: {other:?}"),
-        });
-        assert_eq!(lengths, [1, 2]);
+        Planner::new(&model, &task, &Restrictions::default(), &Options::default(), &Budget::unlimited())
+            .expect("no limits")
+    };
+    let plans = |mut planner: Planner| {
+        let mut plans = Vec::new();
+        loop {
+            match planner.next_plan(&Budget::unlimited()) {
+                Outcome::Solved(plan) => {
+                    plans.push(plan.steps.iter().map(|s| s.action.to_string()).collect::<Vec<_>>());
+                }
+                end => break (plans, end),
+            }
+        }
+    };
+    for detour in ["a", "z"] {
+        assert_eq!(
+            plans(planner(&[(detour, "noise"), ("b", "done")])),
+            (vec![vec!["b".to_owned()]], Outcome::NoMorePlans)
+        );
     }
+    let both = vec![vec!["b".to_owned()], vec!["c".to_owned()]];
+    assert_eq!(plans(planner(&[("a", "noise"), ("b", "done"), ("c", "done")])), (both, Outcome::NoMorePlans));
 }

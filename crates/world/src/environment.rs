@@ -1,4 +1,4 @@
-//! The environment, as whoever acts in it sees it.
+//! The environment, as its agent sees it.
 
 use thiserror::Error;
 use typelift_model::{GroundCall, Symbol};

@@ -7,7 +7,7 @@ use typelift_model::Symbol;
 use crate::trace_writer::TraceWriter;
 use crate::{ParseError, Parser, Scene, Trace, TraceAction, TraceHeader};
 
-/// A trace as it was observed: its states are scenes, which nobody has parsed yet.
+/// A trace as it was observed: its states are scenes, which are not parsed yet.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Recording {
     /// What it is about.

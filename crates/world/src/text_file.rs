@@ -45,7 +45,7 @@ pub(crate) fn not_utf8(path: &Path, line: usize, offset: usize) -> FileError {
         .with_hint("Save it as UTF-8.".to_owned())
 }
 
-/// Writes a file in one go: whoever reads it sees the old content or the new, never a part. What is not a regular
+/// Writes a file in one go: a reader sees the old content or the new, never a part. What is not a regular
 /// file, as a pipe or a terminal, is written to directly. If the machine halts soon after, what was replaced is there in
 /// one of the two; of a file that is new nothing may be.
 ///
@@ -77,7 +77,7 @@ fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     done
 }
 
-/// Writes a file that is not there yet. Whoever finds it finds all of it, and it is on the disk when this returns.
+/// Writes a file that is not there yet. It is never found in part, and it is on the disk when this returns.
 ///
 /// # Errors
 /// Of kind `AlreadyExists` if there is something of this name.

@@ -25,9 +25,8 @@ fn narrow() -> Budget {
 
 /// The first plans; each is valid by the plainest semantics.
 pub(super) fn valid_plans(model: &ActionModel, task: &Task) -> Vec<(Plan, State)> {
-    let options = Options { plans: PLANS, ..Options::default() };
     let mut plans = Vec::new();
-    let Ok(mut planner) = Planner::new(model, task, &Restrictions::default(), &options, &narrow()) else {
+    let Ok(mut planner) = Planner::new(model, task, &Restrictions::default(), &Options::default(), &narrow()) else {
         return plans;
     };
     while let Outcome::Solved(plan) = planner.next_plan(&narrow()) {

@@ -1,4 +1,4 @@
-//! `--planner`: somebody else's planner.
+//! `--planner`: an external planner.
 #![cfg(unix)]
 
 use crate::common::Folder;

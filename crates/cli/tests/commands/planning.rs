@@ -8,10 +8,15 @@ fn plans_of_the_kitchen() {
     insta::assert_snapshot!("plan", folder.run("plan kitchen.json K/tasks/T2.1.json -o t.plan"));
     insta::assert_snapshot!("plan-file", folder.read("t.plan"));
     insta::assert_snapshot!("plan-json", folder.run("plan kitchen.json K/tasks/T1.1.json --json"));
-    insta::assert_snapshot!("plan-three", folder.run("plan kitchen.json K/tasks/T1.1.json --plans 3 -o three"));
+    insta::assert_snapshot!("plan-three", folder.run("plan kitchen.json K/tasks/T2.4.json --plans 3 -o three"));
     insta::assert_snapshot!("plan-better", folder.run("plan kitchen.json K/tasks/T1.1.json --better -o best"));
     assert_eq!(folder.names(), ["K", "best", "best.1", "kitchen.json", "t.plan", "three.1", "three.2", "three.3"]);
-    assert!(folder.read("three.1") == folder.read("best"));
+    assert_eq!(folder.run("plan kitchen.json K/tasks/T2.4.json -o one").code, 0);
+    assert!(folder.read("three.1") == folder.read("one"), "the first of three is the one");
+    insta::assert_snapshot!(
+        "plan-no-further",
+        folder.run("plan kitchen.json K/tasks/T1.1.json --plans 2 --max-expansions 5000")
+    );
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use proptest::test_runner::Config;
 
-/// The number that proptest takes where nobody says another.
+/// The number that proptest takes where no other is set.
 const USUAL: u64 = 256;
 
 /// So many cases usually. `PROPTEST_CASES` makes them more or less in proportion: with 2560, ten times the usual 256, each

@@ -1,7 +1,7 @@
 //! For tests, here and in crates that import this one (feature `testing`): random problems, problems in a few lines of
 //! text, and what enumeration says of them.
 //!
-//! What is wrong with a text is told by a panic: whoever reads it is writing the test.
+//! What is wrong with a text is told by a panic: its reader is writing the test.
 
 mod cases;
 mod enumerate;

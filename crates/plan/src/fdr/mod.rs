@@ -217,7 +217,8 @@ impl Fdr {
     }
 
     fn add(&mut self, id: OpId, op: &Op) {
-        let (Some(preconditions), Some(negative)) = (self.all(&op.preconditions), self.none(&op.negative)) else {
+        let open = self.mutexes.compatible(&op.negative, &op.preconditions);
+        let (Some(preconditions), Some(negative)) = (self.all(&op.preconditions), self.none(&open)) else {
             return;
         };
         if self.mutexes.excluded_pair(&op.preconditions).is_some() {
@@ -247,6 +248,13 @@ impl Fdr {
         let assignment = self.assignment(effect.fact)?;
         let (positive, negative) = (self.all(&effect.positive)?, self.none(&effect.negative)?);
         Some(When { positive, negative, assignment, adds: effect.adds })
+    }
+
+    /// Whether an action can be done.
+    pub(crate) fn is_applicable(&self, action: ActionIndex, values: &Values) -> bool {
+        let (actions, action) = (&self.actions, action as usize);
+        actions.preconditions.get(action).iter().all(|assignment| assignment.holds(values))
+            && !actions.negative.get(action).iter().any(|assignment| assignment.holds(values))
     }
 
     /// Applies an action; `after` starts as a copy of `before`.

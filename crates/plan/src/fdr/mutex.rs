@@ -63,6 +63,14 @@ impl MutexGroups {
         None
     }
 
+    /// The facts among `negative` that may hold where all of `positive` do. That the others do not hold goes without saying.
+    pub(crate) fn compatible(&self, negative: &[FactId], positive: &[FactId]) -> Vec<FactId> {
+        let shares_group =
+            |a: FactId, b: FactId| self.groups_of(a).iter().any(|group| self.groups_of(b).contains(group));
+        let excluded = |fact: FactId| positive.iter().any(|&other| other != fact && shares_group(fact, other));
+        negative.iter().copied().filter(|&fact| !excluded(fact)).collect()
+    }
+
     /// Each fact that is marked in one group; the largest groups first, and what is left alone last.
     pub(crate) fn partition(&self, marked: &[bool]) -> Vec<Vec<FactId>> {
         let mut left = marked.to_vec();
@@ -328,5 +336,23 @@ mod tests {
         let mut sizes = worked.fdr.domains.clone();
         sizes.sort_unstable();
         assert_eq!(sizes, [2, 3, 4, 4]);
+    }
+
+    #[test]
+    fn what_a_mutex_group_implies_is_no_condition_of_its_own() {
+        let worked = Worked::new(
+            "init: free thing(red) thing(blue)
+             goal: held(red)
+             pick(?0): free !held(?0) !wet(?0) -> held(?0) !free
+             drop(?0): held(?0) -> free !held(?0)
+             pour(?0): free thing(?0) -> wet(?0)",
+        );
+        let compatible = |negative: &str, positive: &str| {
+            let (negative, positive) = (worked.facts_of(negative), worked.facts_of(positive));
+            worked.fdr.mutexes.compatible(&negative, &positive)
+        };
+        assert_eq!(compatible("held(red) wet(red)", "free"), worked.facts_of("wet(red)"), "a free hand holds nothing");
+        assert_eq!(compatible("held(red)", "held(blue)"), []);
+        assert_eq!(compatible("held(red)", "wet(red)"), worked.facts_of("held(red)"));
     }
 }

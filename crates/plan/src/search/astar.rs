@@ -2,16 +2,12 @@
 //! admissible heuristic its plan is a cheapest one, else nothing is claimed.
 //!
 //! A node is a state together with the heuristic's memory. A node reached again on a smaller g is reopened.
-//! The search can be continued for further plans: of each node up to `paths` ways that differ in their multiset of
-//! actions are kept (with one, this is the plain search). The same multiset may lead to the goal on more than one way.
-//!
-//! Closing each state after the first path to it would lose every further plan that passes through it.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use std::sync::Arc;
 
-use typelift_model::{Budget, GroundAtom, Stop, spread};
+use typelift_model::{Budget, GroundAtom, Stop};
 
 use super::{Found, Search, Space};
 use crate::fdr::{ActionIndex, Registry, StateId};
@@ -28,8 +24,6 @@ struct Node {
     g: u64,
     /// The predecessor and the action that led here; none for the initial node.
     came_by: Option<(NodeId, ActionIndex)>,
-    /// A commutative hash of the multiset of actions on the way here.
-    actions: u64,
     /// Another node took its place.
     superseded: bool,
     /// The next node of the same state.
@@ -44,7 +38,6 @@ pub(crate) struct AStar {
     memory_len: usize,
     /// Whether h is never more than the rest costs.
     is_admissible: bool,
-    paths: usize,
     registry: Registry,
     memories: Vec<u32>,
     nodes: Vec<Node>,
@@ -61,7 +54,7 @@ pub(crate) struct AStar {
 }
 
 impl AStar {
-    pub(crate) fn new(space: Arc<Space>, heuristic: Box<dyn Heuristic>, is_admissible: bool, paths: usize) -> Self {
+    pub(crate) fn new(space: Arc<Space>, heuristic: Box<dyn Heuristic>, is_admissible: bool) -> Self {
         let variables = space.task.domains.len();
         Self {
             memory_len: heuristic.memory_len(),
@@ -69,7 +62,6 @@ impl AStar {
             space,
             heuristic,
             is_admissible,
-            paths: paths.max(1),
             memories: Vec::new(),
             nodes: Vec::new(),
             last: Vec::new(),
@@ -88,14 +80,14 @@ impl AStar {
         &self.memories[at..at + self.memory_len]
     }
 
-    /// Estimates the state in `after`, and adds a node of it unless enough equal ones are known that are at least as good.
-    fn insert(&mut self, space: &Space, g: u64, came_by: Option<(NodeId, ActionIndex)>, actions: u64) {
+    /// Estimates the state in `after`, and adds a node of it unless an equal one is known that is at least as good.
+    fn insert(&mut self, space: &Space, g: u64, came_by: Option<(NodeId, ActionIndex)>) {
         let (state, is_new) = self.registry.insert(&self.after);
         if is_new {
             self.last.push(None);
         }
         // Without a memory nothing has to be estimated to know that a way is no better.
-        if self.memory_len == 0 && self.rival(state, &[], actions).is_some_and(|(known, _)| g >= known) {
+        if self.memory_len == 0 && self.equal(state, &[]).is_some_and(|known| g >= self.node(known).g) {
             return;
         }
         let mut memory = vec![0; self.memory_len];
@@ -107,39 +99,29 @@ impl AStar {
         let Some(h) = self.heuristic.estimate(&space.task, Reached { values: &self.after, by }, &mut memory) else {
             return;
         };
-        if let Some((known, id)) = self.rival(state, &memory, actions) {
-            if g >= known {
+        if let Some(known) = self.equal(state, &memory) {
+            if g >= self.node(known).g {
                 return;
             }
-            self.nodes[id.0 as usize].superseded = true;
+            self.nodes[known.0 as usize].superseded = true;
             self.reopened += 1;
         }
         let id = NodeId(self.nodes.len() as u32);
         self.memories.extend_from_slice(&memory);
         let next = self.last[state.index()].replace(id);
-        self.nodes.push(Node { state, g, came_by, actions, superseded: false, next });
+        self.nodes.push(Node { state, g, came_by, superseded: false, next });
         self.open.push(Reverse((g + u64::from(h), h, id)));
     }
 
-    /// The node of a state and memory that another has to be better than, and its g.
-    fn rival(&self, state: StateId, memory: &[u32], actions: u64) -> Option<(u64, NodeId)> {
-        let (mut same_way, mut worst, mut known) = (None, None::<(u64, NodeId)>, 0);
-        let mut next = self.last[state.index()];
-        while let Some(id) = next {
-            let node = &self.nodes[id.0 as usize];
-            next = node.next;
-            if node.superseded || self.memory(id) != memory {
-                continue;
-            }
-            known += 1;
-            if node.actions == actions {
-                same_way = Some((node.g, id));
-            }
-            if worst.is_none_or(|(g, _)| node.g > g) {
-                worst = Some((node.g, id));
-            }
-        }
-        same_way.or(worst.filter(|_| known >= self.paths))
+    fn node(&self, id: NodeId) -> &Node {
+        &self.nodes[id.0 as usize]
+    }
+
+    /// The node of a state and memory, if there is one that no other took the place of.
+    fn equal(&self, state: StateId, memory: &[u32]) -> Option<NodeId> {
+        let of_state = std::iter::successors(self.last[state.index()], |&id| self.node(id).next);
+        let mut standing = of_state.filter(|&id| !self.node(id).superseded);
+        standing.find(|&id| self.memory(id) == memory)
     }
 
     fn note_closest(&mut self, space: &Space, state: StateId) {
@@ -166,7 +148,7 @@ impl Search for AStar {
         let space = &*Arc::clone(&self.space);
         if self.nodes.is_empty() {
             self.after.copy_from_slice(&space.task.init);
-            self.insert(space, 0, None, 0);
+            self.insert(space, 0, None);
         }
         let cheapest = space.task.actions.costs.iter().copied().min().map_or(0, u64::from);
         let limit = budget.expansions.map(|allowed| self.expansions + allowed);
@@ -204,9 +186,8 @@ impl Search for AStar {
                 }
                 self.after.copy_from_slice(&self.values);
                 space.task.apply(action, &self.values, &mut self.after);
-                let actions = node.actions.wrapping_add(spread(u64::from(action) + 1));
                 let cost = u64::from(space.task.actions.costs[action as usize]);
-                self.insert(space, node.g + cost, Some((id, action)), actions);
+                self.insert(space, node.g + cost, Some((id, action)));
             }
         }
         Found::Nothing

@@ -42,6 +42,19 @@ impl Portfolio {
         Self { members, turn: 0, left, length: FIRST_TURN, improvements: 0 }
     }
 
+    /// Adds these, whose turn it is now.
+    pub(crate) fn join(&mut self, members: Vec<Member>) {
+        (self.turn, self.length) = (self.members.len(), FIRST_TURN);
+        self.members.extend(members);
+        self.begin_turn();
+    }
+
+    fn begin_turn(&mut self) {
+        let next = &self.members[self.turn];
+        self.improvements = next.search.improvements();
+        self.left = self.length / next.weight;
+    }
+
     fn end_turn(&mut self) {
         if self.members[self.turn].search.improvements() == self.improvements {
             self.turn += 1;
@@ -50,9 +63,7 @@ impl Portfolio {
                 self.length += self.length / 4;
             }
         }
-        let next = &self.members[self.turn];
-        self.improvements = next.search.improvements();
-        self.left = self.length / next.weight;
+        self.begin_turn();
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use typelift_model::{GroundAtom, Plan};
+use typelift_model::{GroundAtom, HashMap, Plan, Symbol};
 
 use crate::fdr::{ActionIndex, Fdr, SuccessorGenerator, Values};
 use crate::ground::GroundTask;
@@ -28,6 +28,45 @@ impl Space {
     pub(crate) fn plan(&self, actions: &[ActionIndex]) -> Plan {
         let ids = &self.task.actions.ids;
         Plan { steps: actions.iter().map(|&action| self.ground.step(ids[action as usize])).collect() }
+    }
+
+    /// A plan without the steps that it does as well without: each in turn is left out, with what can then not be done any
+    /// more, if the rest still is a plan (Nakhost and Müller 2010). Which steps are left over depends on the order, and
+    /// finding the fewest is hard (Fink and Yang 1992).
+    pub(crate) fn without_useless_steps(&self, plan: Plan) -> Plan {
+        let Some(mut actions) = self.actions_of(&plan) else { return plan };
+        while let Some(fewer) = (0..actions.len()).find_map(|step| self.without(&actions, step)) {
+            actions = fewer;
+        }
+        self.plan(&actions)
+    }
+
+    /// The actions of a plan of this task.
+    fn actions_of(&self, plan: &Plan) -> Option<Vec<ActionIndex>> {
+        let mut wanted: HashMap<(&Symbol, &[Symbol]), Option<ActionIndex>> = HashMap::default();
+        wanted.extend(plan.steps.iter().map(|step| ((&step.action, step.objects.as_slice()), None)));
+        for (&id, action) in self.task.actions.ids.iter().zip(0..) {
+            if let Some(known) = wanted.get_mut(&self.ground.named(id)) {
+                *known = Some(action);
+            }
+        }
+        plan.steps.iter().map(|step| wanted[&(&step.action, step.objects.as_slice())]).collect()
+    }
+
+    /// The actions but for one and those that cannot be done without it, if they still lead to the goal.
+    fn without(&self, actions: &[ActionIndex], left_out: usize) -> Option<Vec<ActionIndex>> {
+        let mut values = self.task.init.clone();
+        let mut after = values.clone();
+        let mut kept = Vec::with_capacity(actions.len());
+        for (i, &action) in actions.iter().enumerate() {
+            if i != left_out && self.task.is_applicable(action, &values) {
+                after.copy_from_slice(&values);
+                self.task.apply(action, &values, &mut after);
+                std::mem::swap(&mut values, &mut after);
+                kept.push(action);
+            }
+        }
+        self.task.is_goal(&values).then_some(kept)
     }
 
     /// The goal's literals that do not hold in a state, and whether each must.
