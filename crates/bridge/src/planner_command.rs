@@ -7,7 +7,7 @@ use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitStatus, Stdio};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
 use thiserror::Error;
@@ -23,6 +23,9 @@ const GRACE: Duration = Duration::from_secs(1);
 
 /// How often it is looked whether the planner has ended.
 const INTERVAL: Duration = Duration::from_millis(20);
+
+/// How much later than the planner the budget may tell of a signal that was sent to both.
+const LATENESS: Duration = Duration::from_millis(250);
 
 /// Lines of what the planner printed that are told when it fails.
 const TOLD: usize = 5;
@@ -155,7 +158,26 @@ impl ExternalPlanner for PlannerCommand {
             }
         }
         let status = process.end(if stopped.is_some() { GRACE } else { Duration::ZERO });
-        self.answer(&exchange, status, stopped, model, task)
+        match self.answer(&exchange, status, stopped, model, task) {
+            Err(ExternalFailure::NoAnswer { .. }) if is_stopped_within(budget, LATENESS) => {
+                Ok(Outcome::Stopped(Stop::Cancelled))
+            }
+            answer => answer,
+        }
+    }
+}
+
+/// Whether somebody asks to stop, now or soon.
+fn is_stopped_within(budget: &Budget, limit: Duration) -> bool {
+    let begun = Instant::now();
+    loop {
+        if budget.stopped() == Some(Stop::Cancelled) {
+            return true;
+        }
+        if begun.elapsed() >= limit {
+            return false;
+        }
+        std::thread::sleep(INTERVAL);
     }
 }
 

@@ -13,8 +13,9 @@ use typelift::world::{FileError, write_file};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::files::{domain_name, keep_inputs, task_name};
+use crate::files::task_name;
 use crate::limits::{Clock, Interrupt, Limits};
+use crate::overwriting::{Output, keep_inputs};
 use crate::planner_option::LevelArgument;
 use crate::planning_options::ModelArguments;
 use crate::watchdog::within;
@@ -137,9 +138,7 @@ impl Export {
             return Err(Failure::new(Exit::Usage, "--imagine: there is no task to imagine actions for"));
         }
         let files = ["domain.pddl", "problem.pddl", "names.json"].map(|name| self.output.join(name));
-        for file in &files {
-            keep_inputs(Some(file), self.model.files().chain(&self.task))?;
-        }
+        keep_inputs(files.iter().map(|file| Output::File(file)), self.model.files().chain(&self.task))?;
         let (exported, imagined) = within(clock, self.limits, || self.export(clock, quiet))?;
         self.make_folder()?;
         let mut written = vec![(&files[0], exported.domain.to_string())];
@@ -166,6 +165,8 @@ impl Export {
     /// What is to be written, and how many actions of it are imagined.
     fn export(&self, clock: Clock, quiet: bool) -> Result<(Exported, usize), Failure> {
         let input = self.model.read()?;
+        let name = || input.domain_name(&self.model.model);
+        let domain = self.name.clone().unwrap_or_else(name);
         let (model, task) = match &self.task {
             Some(path) => input.read_planning_task(path, quiet).map(|(model, task)| (model, Some(task)))?,
             None => (input.model().clone(), None),
@@ -173,7 +174,7 @@ impl Export {
         let budget = self.limits.budget(clock, &Interrupt::default());
         let model = self.model.as_used(model, task.as_ref(), &budget)?;
         let options = ExportOptions {
-            domain: self.name.clone().unwrap_or_else(|| domain_name(&self.model.model)),
+            domain,
             problem: Symbol::from(self.task.as_deref().map(task_name).unwrap_or_default()),
             level: self.level.into(),
         };

@@ -1,14 +1,11 @@
 //! Reading models and tasks, as every command that takes them does.
 
-use std::fs::File;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use typelift::model::{ActionModel, LearnedModel, ModelFileError, ParseConfig, Symbol, Task};
-use typelift::world::{DomainFile, FileError, Parser, TaskFile, is_pddl, read_task, read_text, read_types};
+use typelift::world::{DomainFile, FileError, Parser, TaskFile, is_pddl, read_text, read_types};
 
 use crate::failure::{Failure, NOT_AS_WRITTEN};
-use crate::pddl::declared_name;
 use crate::style::{HINT, WARNING};
 
 /// Warnings of files that are said.
@@ -70,6 +67,14 @@ impl ModelInput {
         }
     }
 
+    /// The name of it as a domain: the one that a PDDL domain has, or else that of the file.
+    pub(crate) fn domain_name(&self, path: &Path) -> Symbol {
+        match self {
+            Self::Learned(_) => domain_name(path),
+            Self::Given(domain) => Symbol::from(domain.domain.name.as_str().to_ascii_lowercase()),
+        }
+    }
+
     /// Whether it is a PDDL domain.
     pub(crate) fn is_given(&self) -> bool {
         matches!(self, Self::Given(_))
@@ -77,16 +82,19 @@ impl ModelInput {
 
     /// Reads a task file, or a problem of the domain; warns unless it is to be `quiet`.
     pub(crate) fn read_task(&self, path: &Path, quiet: bool) -> Result<TaskInput, Failure> {
-        let starts_as_pddl = is_pddl(&read_start(path)?);
+        // It is read once: it may be a pipe.
+        let text = read_text(path)?;
         match self {
-            Self::Given(domain) if starts_as_pddl => Ok(TaskInput::Problem(Box::new(domain.read_problem(path)?))),
-            Self::Learned(_) if starts_as_pddl => {
+            Self::Given(domain) if is_pddl(&text) => {
+                Ok(TaskInput::Problem(Box::new(domain.problem_from_text(path, &text)?)))
+            }
+            Self::Learned(_) if is_pddl(&text) => {
                 let error = FileError::new(path, "this is PDDL, and the model is a learned one");
                 let hint = "A PDDL problem needs its PDDL domain in the model's place; `typelift export` writes both.";
                 Err(error.with_hint(hint.to_owned()).into())
             }
             _ => {
-                let file = read_task(path)?;
+                let file = TaskFile::from_text(path, &text)?;
                 if !quiet {
                     warn(file.warnings.iter());
                 }
@@ -126,47 +134,14 @@ pub(crate) fn warn<'w>(mut warnings: impl Iterator<Item = &'w FileError>) {
     }
 }
 
-/// The beginning of a file.
-fn read_start(path: &Path) -> Result<String, Failure> {
-    let mut start = Vec::new();
-    let read = File::open(path).and_then(|file| file.take(256).read_to_end(&mut start));
-    read.map_err(|error| FileError::from_io(path, &error))?;
-    Ok(String::from_utf8_lossy(&start).trim_start_matches('\u{FEFF}').to_owned())
-}
-
 /// A task's name, for people: its file's, without folders and ending.
 pub(crate) fn task_name(path: &Path) -> String {
     path.file_stem().map_or_else(|| path.display().to_string(), |stem| stem.to_string_lossy().into_owned())
 }
 
-/// A name for a domain: that of the domain in the file, or else the file's, as far as PDDL allows it.
-pub(crate) fn domain_name(path: &Path) -> Symbol {
-    if let Some(name) = declared_name(path) {
-        return Symbol::from(name);
-    }
+/// A name for a learned model as a domain: its file's, as far as PDDL allows it.
+fn domain_name(path: &Path) -> Symbol {
     let stem = path.file_stem().map(|stem| stem.to_string_lossy().to_lowercase()).unwrap_or_default();
     let name: String = stem.chars().map(|c| if c.is_ascii_alphanumeric() || c == '-' { c } else { '-' }).collect();
     Symbol::from(if name.starts_with(|c: char| c.is_ascii_alphabetic()) { name } else { format!("model-{name}") })
-}
-
-/// Refuses to write over what is read.
-pub(crate) fn keep_inputs<'a>(
-    output: Option<&Path>,
-    inputs: impl IntoIterator<Item = &'a PathBuf>,
-) -> Result<(), Failure> {
-    let Some(output) = output else { return Ok(()) };
-    // A file that is not there yet is no input.
-    let Ok(written) = output.canonicalize() else { return Ok(()) };
-    // Of a folder, demonstrations are read.
-    let is_trace = written.extension().is_some_and(|ending| ending == "jsonl" || ending == "trajectory");
-    for input in inputs {
-        let is_read = |read: PathBuf| read == written || is_trace && written.parent() == Some(&read);
-        if written.is_file() && input.canonicalize().is_ok_and(is_read) {
-            return Err(Failure::bad_input(format!("{} is read, and would be written over", output.display()))
-                .with_hint(
-                    "name another file to write to; a pattern such as *.jsonl after -o is expanded by the shell",
-                ));
-        }
-    }
-    Ok(())
 }

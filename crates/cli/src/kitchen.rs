@@ -7,7 +7,9 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use typelift::model::{GroundAtom, GroundCall, ParseConfig, Symbol};
 use typelift::words::count;
-use typelift::world::{FileError, Parser, Reset, Scene, TaskFile, TraceReader, World, write_file, write_task};
+use typelift::world::{
+    FileError, Parser, Reset, Scene, TaskFile, TraceReader, World, trace_from, write_file, write_task,
+};
 use typelift_kitchen::{
     Difference, Kitchen as Simulator, KitchenTask, demonstrations, draw, faults, replay, serve, tasks, types_pddl,
 };
@@ -165,10 +167,13 @@ fn replay_all(traces: &[PathBuf], json: bool) -> Result<Exit, Failure> {
 }
 
 fn replay_one(path: &Path) -> Result<(usize, Option<Difference>), Failure> {
-    // Checks the whole file first: types, entities, the alternation of states and actions.
+    // It is read once: it may be a pipe.
+    let bytes = std::fs::read(path).map_err(|error| FileError::from_io(path, &error))?;
+    let reader = || TraceReader::new(path, bytes.as_slice());
+    // Checks the whole trace first: types, entities, the alternation of states and actions.
     let mut parser = Parser::new(typelift_kitchen::hierarchy(), ParseConfig::default());
-    typelift::world::read_trace(path, &mut parser)?;
-    let recording = TraceReader::open(path)?.recording()?;
+    trace_from(path, reader()?, &mut parser)?;
+    let recording = reader()?.recording()?;
     let Scene::Snapshot(first) = recording.first else {
         return Err(Failure::bad_input(format!("{}: the first state is not a snapshot", path.display())).with_hint(
             "A kitchen cannot be built from atoms alone: they do not say in which order things are stacked.",

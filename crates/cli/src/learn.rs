@@ -10,13 +10,16 @@ use typelift::model::{
     ClusterKey, LearnedModel, LiftedAtom, Observations, RefusedMerges, SourceId, Symbol, Unexplained,
 };
 use typelift::words::count;
-use typelift::world::{Dataset, ObjectTypes, Repeated, TrajectoryContext, Unlisted, read_dataset, write_file};
+use typelift::world::{
+    Dataset, ObjectTypes, Repeated, TrajectoryContext, Unlisted, demonstrations_at, read_dataset, write_file,
+};
 
 use crate::exit::Exit;
 use crate::failure::{Failure, or_one_of};
-use crate::files::{keep_inputs, warn};
+use crate::files::warn;
 use crate::learn_into::{self, add, beginning, forget};
 use crate::limits::{Clock, Limits};
+use crate::overwriting::{Output, keep_inputs};
 use crate::style::{HEAD, HINT, WARNING, wrapped};
 use crate::watchdog::within;
 
@@ -30,7 +33,7 @@ use crate::watchdog::within;
   typelift learn --into model.json --forget wrong.jsonl
 
 A trace is one demonstration: JSON Lines (trace/1), or a PDDL trajectory. Of a
-folder, every .jsonl and .trajectory file is read.")]
+folder, every file that ends in .jsonl, .trajectory or _traj is read.")]
 pub(crate) struct Learn {
     /// Traces, trajectories, or folders of them
     #[arg(required_unless_present = "into", value_name = "TRACE")]
@@ -99,8 +102,7 @@ struct Report {
 impl Learn {
     pub(crate) fn run(&self, clock: Clock, quiet: bool) -> Result<Exit, Failure> {
         let output = self.output.as_ref().or(self.into.as_ref()).filter(|_| !self.dry_run);
-        let inputs = self.traces.iter().chain(&self.types).chain(&self.problems).chain(&self.objects);
-        keep_inputs(output.map(PathBuf::as_path), inputs)?;
+        keep_inputs(output.map(|path| Output::File(path)), self.inputs())?;
         let (dataset, known, model, report) = within(clock, self.limits, || self.learn())?;
         // First, so that the model is written even if standard output is closed.
         if let Some(path) = output {
@@ -122,6 +124,15 @@ impl Learn {
             self.warn(&dataset, &known, &model, &report);
         }
         Ok(Exit::Success)
+    }
+
+    /// The files that are read, but for the model that is added to. What a folder does not tell now, it will not tell when
+    /// it is read, and the error is told there.
+    fn inputs(&self) -> Vec<PathBuf> {
+        let traces = self.traces.iter().flat_map(|path| demonstrations_at(path).unwrap_or_default());
+        let problems = self.problems.iter().flat_map(|folder| ObjectTypes::problems_at(folder).unwrap_or_default());
+        let forgotten = self.forget.iter().map(PathBuf::from);
+        traces.chain(problems).chain(forgotten).chain(self.types.clone()).chain(self.objects.clone()).collect()
     }
 
     /// Reads the traces, and learns from them; also gives those that the model had already.

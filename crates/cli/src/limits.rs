@@ -52,6 +52,8 @@ pub(crate) struct SearchLimits {
 #[derive(Clone, Default)]
 pub(crate) struct Interrupt {
     raised: Arc<AtomicBool>,
+    /// Whether somebody looks at it from time to time. Otherwise it ends the program at once.
+    heeded: Arc<AtomicBool>,
     /// What is done at once when it is raised: waiting for a flag would be too late.
     hooks: Arc<Mutex<Vec<Hook>>>,
 }
@@ -61,11 +63,15 @@ type Hook = Box<dyn Fn() + Send>;
 /// A second request to stop counts as one only after this time.
 const REPETITION: Duration = Duration::from_millis(500);
 
+/// How much later than a child of this program the program itself may learn of a signal that was sent to both.
+const LATENESS: Duration = Duration::from_millis(250);
+
 impl Interrupt {
-    /// Catches Ctrl-C from now on; a second one ends the program at once.
+    /// Catches Ctrl-C from now on. It ends the program at once until it is [heeded](Self::heeded), since nothing that is
+    /// read can be asked to stop: it may come through a pipe, and never. A second one always ends it at once.
     pub(crate) fn install() -> Result<Self, Failure> {
         let interrupt = Self::default();
-        let Self { raised, hooks } = interrupt.clone();
+        let Self { raised, heeded, hooks } = interrupt.clone();
         let mut first: Option<Instant> = None;
         ctrlc::set_handler(move || {
             raised.store(true, Ordering::SeqCst);
@@ -74,7 +80,7 @@ impl Interrupt {
             for hook in hooks.lock().iter().flat_map(|hooks| hooks.iter()) {
                 hook();
             }
-            if again {
+            if again || !heeded.load(Ordering::SeqCst) {
                 std::process::exit(Exit::Interrupted as i32);
             }
         })
@@ -82,15 +88,41 @@ impl Interrupt {
         Ok(interrupt)
     }
 
-    /// Has something done as soon as it is raised.
+    /// From now on it is looked at.
+    pub(crate) fn heeded(&self) {
+        self.heeded.store(true, Ordering::SeqCst);
+    }
+
+    /// Does what may wait for ever and cannot be asked to stop, such as opening a pipe that nobody reads. An interrupt that
+    /// comes meanwhile ends the program at once.
+    pub(crate) fn unheeded<T>(&self, work: impl FnOnce() -> T) -> T {
+        self.heeded.store(false, Ordering::SeqCst);
+        let done = work();
+        self.heeded();
+        done
+    }
+
+    /// Has something done as soon as it is raised; at once if it is already.
     pub(crate) fn on_raised(&self, hook: impl Fn() + Send + 'static) {
-        if let Ok(mut hooks) = self.hooks.lock() {
-            hooks.push(Box::new(hook));
+        let Ok(mut hooks) = self.hooks.lock() else { return };
+        // Whoever raises it after this look waits for the lock, and finds the hook.
+        if self.is_set() {
+            hook();
         }
+        hooks.push(Box::new(hook));
     }
 
     pub(crate) fn is_set(&self) -> bool {
         self.raised.load(Ordering::SeqCst)
+    }
+
+    /// Whether it explains that a child has failed: a signal to a whole group may end the child before it arrives here.
+    pub(crate) fn explains_failure(&self) -> bool {
+        let begun = Instant::now();
+        while !self.is_set() && begun.elapsed() < LATENESS {
+            std::thread::sleep(LATENESS / 25);
+        }
+        self.is_set()
     }
 }
 

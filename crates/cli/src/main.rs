@@ -17,6 +17,7 @@ mod learn_into;
 mod limits;
 mod memory;
 mod narrate;
+mod overwriting;
 mod pddl;
 mod plan;
 mod plan_file;

@@ -14,9 +14,9 @@ use typelift::world::write_file;
 
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::files::keep_inputs;
 use crate::limits::{Clock, Interrupt, Limits, what_to_try};
 use crate::memory::memory_held_from_now;
+use crate::overwriting::{Output, keep_inputs, numbered};
 use crate::plan_file::plan_file;
 use crate::planning_options::PlanningOptions;
 use crate::style::{BAD, HEAD, HINT, WARNING, painted};
@@ -77,7 +77,8 @@ impl Plan {
         let interrupt = Interrupt::install()?;
         let memory = memory_held_from_now();
         let budget = self.planning.limits.budget(clock, &interrupt, None);
-        let FirstAnswer { model, task, output, read, proposal } = self.begin_watched(clock, &budget, quiet)?;
+        let FirstAnswer { model, task, output, read, proposal } =
+            self.begin_watched(clock, &budget, &interrupt, quiet)?;
         // The answer need not wait for the memory to be freed.
         let mut proposal = match proposal {
             Ok(proposal) => ManuallyDrop::new(proposal),
@@ -94,13 +95,13 @@ impl Plan {
             plans.push(plan.clone());
             if self.better {
                 // What is found is safe, however the search ends.
-                self.write_plans(output.as_deref(), &plans, &proposal.model, &task)?;
+                self.write_plans(output.as_deref(), &plans, &proposal.model, &task, &interrupt)?;
             }
             if !self.planning.json {
                 let took = clock.elapsed() - read;
                 if let Err(failure) = self.print(&mut out, number, &plan, &proposal, &model, took) {
                     // Standard output is closed; the file is wanted all the same.
-                    self.write_plans(output.as_deref(), &plans, &proposal.model, &task)?;
+                    self.write_plans(output.as_deref(), &plans, &proposal.model, &task, &interrupt)?;
                     return Err(failure);
                 }
             }
@@ -113,7 +114,7 @@ impl Plan {
                 proposal.next_plan(&for_another)?
             };
         };
-        self.write_plans(output.as_deref(), &plans, &proposal.model, &task)?;
+        self.write_plans(output.as_deref(), &plans, &proposal.model, &task, &interrupt)?;
         let exit = match &last {
             _ if !plans.is_empty() => Exit::Success,
             Outcome::Stopped(stop) => (*stop).into(),
@@ -136,24 +137,31 @@ impl Plan {
 
     /// Reads, grounds, and searches for the first plan. A watchdog ends the program if reading takes more than is allowed;
     /// an external planner is ended by what started it.
-    fn begin_watched(&self, clock: Clock, budget: &Budget, quiet: bool) -> Result<FirstAnswer, Failure> {
+    fn begin_watched(
+        &self,
+        clock: Clock,
+        budget: &Budget,
+        interrupt: &Interrupt,
+        quiet: bool,
+    ) -> Result<FirstAnswer, Failure> {
         let json = self.planning.json;
         let limits = if self.planning.planner.is_given() { Limits::default() } else { self.planning.limits.limits };
         let last_words = move |stop| {
             // If printing fails, that cannot be printed either.
             say_stop(stop, json, clock.elapsed()).unwrap_or(stop.into())
         };
-        watched(clock, limits, last_words, || self.begin(clock, budget, quiet))
+        watched(clock, limits, last_words, || self.begin(clock, budget, interrupt, quiet))
     }
 
-    fn begin(&self, clock: Clock, budget: &Budget, quiet: bool) -> Result<FirstAnswer, Failure> {
+    fn begin(&self, clock: Clock, budget: &Budget, interrupt: &Interrupt, quiet: bool) -> Result<FirstAnswer, Failure> {
         let model = &self.planning.model;
-        keep_inputs(self.output.as_deref(), model.files().chain([&self.task]))?;
         let input = model.read()?;
         let is_given = input.is_given();
         let default_output = is_given.then(|| PathBuf::from(DEFAULT_OUTPUT));
         let output = self.output.clone().or(default_output);
+        keep_inputs(output.as_deref().map(|file| self.written(file)), model.files().chain([&self.task]))?;
         let (model, task) = input.read_planning_task(&self.task, quiet)?;
+        interrupt.heeded();
         let read = clock.elapsed();
         let options = self.planning.agent_options(is_given)?;
         let proposal = match propose(&model, &task, &Restrictions::default(), &options, budget) {
@@ -161,6 +169,15 @@ impl Plan {
             proposal => Ok(proposal?),
         };
         Ok(FirstAnswer { model, task, output, read, proposal })
+    }
+
+    /// What is written where the plans are to go to this file.
+    fn written<'a>(&self, file: &'a Path) -> Output<'a> {
+        match (self.better, self.plans) {
+            (true, _) => Output::Numbered { file, most: u64::MAX },
+            (false, 1) => Output::File(file),
+            (false, most) => Output::Numbered { file, most },
+        }
     }
 
     fn print(
@@ -197,10 +214,15 @@ impl Plan {
         plans: &[FoundPlan],
         model: &ActionModel,
         task: &Task,
+        interrupt: &Interrupt,
     ) -> Result<(), Failure> {
         let (Some(path), Some(last)) = (output, plans.last()) else { return Ok(()) };
         let write = |path: &Path, plan: &FoundPlan| -> Result<(), Failure> {
-            Ok(write_file(path, plan_file(plan, model, &task.init)?.as_bytes())?)
+            let text = plan_file(plan, model, &task.init)?;
+            let write = || write_file(path, text.as_bytes());
+            // A pipe may never be read; a file is at once written whole, and is not to be left in part.
+            let is_pipe = path.metadata().is_ok_and(|data| !data.is_file());
+            Ok(if is_pipe { interrupt.unheeded(write) } else { write() }?)
         };
         if self.better || plans.len() == 1 {
             write(path, last)?;
@@ -208,10 +230,8 @@ impl Plan {
         if self.better || plans.len() > 1 {
             // With --better all but the last are there already.
             let new = if self.better { plans.len() - 1 } else { 0 };
-            for (i, plan) in plans.iter().enumerate().skip(new) {
-                let mut name = path.as_os_str().to_owned();
-                name.push(format!(".{}", i + 1));
-                write(name.as_ref(), plan)?;
+            for (number, plan) in (1..).zip(plans).skip(new) {
+                write(&numbered(path, number), plan)?;
             }
         }
         Ok(())

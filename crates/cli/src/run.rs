@@ -9,7 +9,7 @@ use std::time::Duration;
 use clap::ValueEnum;
 use typelift::agent::{Ending, Episode, EpisodeError, Experience, Options, RunError, run};
 use typelift::bridge::Bridge;
-use typelift::model::{Plan, State, Stop, Symbol, Task};
+use typelift::model::{ActionModel, Plan, State, Stop, Symbol, Task};
 use typelift::words::{AccountView, BrokenOffView, summary};
 use typelift::world::{FileError, Parser, Recorder, Reset, Scene, TaskFile, TraceHeader, World, WorldError};
 use typelift_kitchen::Kitchen;
@@ -17,9 +17,10 @@ use typelift_kitchen::Kitchen;
 use crate::confirm::{Which, confirm};
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::files::{TaskInput, keep_inputs, task_name};
+use crate::files::{ModelInput, TaskInput, task_name};
 use crate::limits::{Clock, Interrupt, what_to_try};
 use crate::narrate::Narrator;
+use crate::overwriting::{Output, keep_inputs};
 use crate::planning_options::PlanningOptions;
 use crate::quantities::{parse_duration, parse_whole};
 use crate::style::{HEAD, HINT, painted};
@@ -88,6 +89,14 @@ pub(crate) struct Run {
     planning: PlanningOptions,
 }
 
+/// A task, as it was read.
+struct ToDo<'a> {
+    path: &'a Path,
+    model: Arc<ActionModel>,
+    reset: Reset,
+    task: Task,
+}
+
 /// What an environment can be asked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Operation {
@@ -108,19 +117,13 @@ fn parse_timeout(text: &str) -> Result<(Operation, Duration), String> {
 impl Run {
     pub(crate) fn run(&self, clock: Clock, quiet: bool) -> Result<Exit, Failure> {
         let interrupt = Interrupt::install()?;
-        keep_inputs(self.events.as_deref(), self.tasks.iter().chain(self.planning.model.files()))?;
+        let inputs = self.tasks.iter().chain(self.planning.model.files());
+        keep_inputs(self.events.as_deref().map(Output::File), inputs)?;
         let input = self.planning.model.read()?;
-        let (learned, parse) = (Arc::new(input.model().clone()), input.parse());
-        let mut tasks = Vec::with_capacity(self.tasks.len());
-        for path in &self.tasks {
-            tasks.push(match input.read_task(path, quiet)? {
-                TaskInput::File(file) => {
-                    (path, Arc::clone(&learned), self.reset(&file), Task::new(State::default(), file.goal))
-                }
-                TaskInput::Problem(problem) => (path, Arc::new(problem.0), self.reset_to_problem(path), problem.1),
-            });
-        }
+        let tasks = self.read_tasks(&input, quiet)?;
+        let parse = input.parse();
         let options = self.options(input.is_given())?;
+        interrupt.heeded();
         let mut world = self.open(&interrupt)?;
         if self.restart && !world.can_reset() {
             return Err(Failure::bad_input(format!("--restart: {} cannot be reset", world.name()))
@@ -129,7 +132,10 @@ impl Run {
         // Only now, so that what an earlier run wrote there is kept when this one cannot begin.
         let events = match &self.events {
             None => None,
-            Some(path) => Some(BufWriter::new(File::create(path).map_err(|e| FileError::from_write(path, &e))?)),
+            Some(path) => {
+                let file = interrupt.unheeded(|| File::create(path));
+                Some(BufWriter::new(file.map_err(|error| FileError::from_write(path, &error))?))
+            }
         };
         if let Some(folder) = &self.record {
             create_dir_all(folder).map_err(|error| FileError::from_write(folder, &error))?;
@@ -138,7 +144,7 @@ impl Run {
         let mut experience = Experience::new();
         let mut out = anstream::stdout().lock();
         let mut all_solved = true;
-        for (path, model, reset, task) in tasks {
+        for ToDo { path, model, reset, task } in tasks {
             let name = task_name(path);
             if narrator.aloud {
                 anstream::eprintln!("{HEAD}{name}{HEAD:#}");
@@ -158,7 +164,12 @@ impl Run {
             for file in recorder.iter().flat_map(Recorder::files).filter(|_| !quiet) {
                 anstream::eprintln!("recorded {}", file.display());
             }
-            if interrupt.is_set() && ran.is_err() {
+            let was_interrupted = match &ran {
+                Ok(_) => false,
+                Err(RunError::World(_)) => interrupt.explains_failure(),
+                Err(_) => interrupt.is_set(),
+            };
+            if was_interrupted {
                 return Ok(Exit::Interrupted);
             }
             let is_bad_input = matches!(ran, Err(RunError::Episode(EpisodeError::Goal(_))));
@@ -188,12 +199,33 @@ impl Run {
                 anstream::eprintln!("{HINT}hint{HINT:#}: {advice}");
             }
             if account.ending == Ending::Stopped(Stop::Cancelled) {
-                world.close()?;
-                return Ok(if interrupt.is_set() { Exit::Interrupted } else { Exit::NotAchieved });
+                break;
             }
         }
-        world.close()?;
+        let closed = world.close();
+        // An interrupt stops the environment, which then cannot be closed any more.
+        if interrupt.is_set() || closed.is_err() && interrupt.explains_failure() {
+            return Ok(Exit::Interrupted);
+        }
+        closed?;
         Ok(if all_solved { Exit::Success } else { Exit::NotAchieved })
+    }
+
+    fn read_tasks<'a>(&'a self, input: &ModelInput, quiet: bool) -> Result<Vec<ToDo<'a>>, Failure> {
+        let learned = Arc::new(input.model().clone());
+        let read = |path: &'a PathBuf| -> Result<ToDo<'a>, Failure> {
+            Ok(match input.read_task(path, quiet)? {
+                TaskInput::File(file) => {
+                    let task = Task::new(State::default(), file.goal.clone());
+                    ToDo { path, model: Arc::clone(&learned), reset: self.reset(&file), task }
+                }
+                TaskInput::Problem(problem) => {
+                    let (model, task) = *problem;
+                    ToDo { path, model: Arc::new(model), reset: self.reset_to_problem(path)?, task }
+                }
+            })
+        };
+        self.tasks.iter().map(read).collect()
     }
 
     fn open(&self, interrupt: &Interrupt) -> Result<Box<dyn World>, Failure> {
@@ -214,7 +246,7 @@ impl Run {
         });
         match bridge {
             Ok(bridge) => Ok(Box::new(bridge)),
-            Err(_) if interrupt.is_set() => Err(Failure::new(Exit::Interrupted, "stopped")),
+            Err(_) if interrupt.explains_failure() => Err(Failure::new(Exit::Interrupted, "stopped")),
             Err(error) => Err(WorldError::from(error).into()),
         }
     }
@@ -239,8 +271,12 @@ impl Run {
     }
 
     /// How the environment is set up for a PDDL problem: it is told the file.
-    fn reset_to_problem(&self, path: &Path) -> Reset {
+    fn reset_to_problem(&self, path: &Path) -> Result<Reset, Failure> {
+        if !path.is_file() {
+            let error = FileError::new(path, "the environment is told this file, and would find it read already");
+            return Err(error.with_hint("A problem to act on cannot come through a pipe.".to_owned()).into());
+        }
         let scenario = serde_json::json!({ "problem": path.display().to_string() });
-        Reset { seed: self.seed.unwrap_or(0), scenario: Some(scenario) }
+        Ok(Reset { seed: self.seed.unwrap_or(0), scenario: Some(scenario) })
     }
 }

@@ -9,7 +9,7 @@ use typelift::words::{Description, count, describe_action, describe_axiom};
 
 use crate::exit::Exit;
 use crate::failure::{Failure, or_one_of};
-use crate::files::{ModelInput, domain_name, read_model_input};
+use crate::files::{ModelInput, read_model_input};
 use crate::learn::refused_merges;
 use crate::style::described;
 
@@ -38,13 +38,14 @@ pub(crate) struct Show {
 
 impl Show {
     pub(crate) fn run(&self) -> Result<Exit, Failure> {
-        let LearnedModel { model, evidence, refused, .. } = match read_model_input(&self.model, None)? {
+        let input = read_model_input(&self.model, None)?;
+        let domain = input.domain_name(&self.model);
+        let LearnedModel { model, evidence, refused, .. } = match input {
             ModelInput::Learned(learned) => *learned,
             ModelInput::Given(domain) => domain.model.into(),
         };
         let mut out = anstream::stdout().lock();
         if self.pddl {
-            let domain = domain_name(&self.model);
             let options = ExportOptions { domain, problem: Symbol::default(), level: Level::Adl };
             write!(out, "{}", export(&model, None, &options)?.domain)?;
             return Ok(Exit::Success);

@@ -59,8 +59,8 @@ pub fn any_trace_from(
     }
 }
 
-/// Reads demonstrations with one parser, so that a predicate means the same in all of them. Of a folder, the files
-/// that end in `.jsonl`, `.trajectory` or `_traj` are read, sorted by name.
+/// Reads demonstrations with one parser, so that a predicate means the same in all of them. Of a folder, those that
+/// [`demonstrations_at`] lists are read.
 ///
 /// # Errors
 /// [`FileError`] as for [`read_any_trace`], and if there are no demonstrations.
@@ -73,21 +73,29 @@ pub fn read_dataset(
     let mut parser = Parser::new(hierarchy, parse);
     let mut traces = Vec::new();
     for path in paths {
-        if !path.is_dir() {
-            traces.push(read_any_trace(path, context, &mut parser)?);
-            continue;
-        }
-        let endings = [".jsonl", ".trajectory", "_traj"];
-        let files = files_of(path, |name| endings.iter().any(|ending| name.ends_with(ending)))?;
-        if files.is_empty() {
-            let what = "there are no traces (.jsonl) or trajectories (.trajectory) in this folder";
-            return Err(FileError::new(path, what));
-        }
-        for file in files {
+        for file in demonstrations_at(path)? {
             traces.push(read_any_trace(&file, context, &mut parser)?);
         }
     }
     dataset_of(&parser, traces)
+}
+
+/// The demonstrations that [`read_dataset`] reads for a path: itself, or, of a folder, the files that end in `.jsonl`,
+/// `.trajectory` or `_traj`, sorted by name.
+///
+/// # Errors
+/// [`FileError`] if it is a folder that cannot be read, or that holds none.
+pub fn demonstrations_at(path: &Path) -> Result<Vec<PathBuf>, FileError> {
+    if !path.is_dir() {
+        return Ok(vec![path.to_owned()]);
+    }
+    let endings = [".jsonl", ".trajectory", "_traj"];
+    let files = files_of(path, |name| endings.iter().any(|ending| name.ends_with(ending)))?;
+    if files.is_empty() {
+        let what = "there are no traces (.jsonl) or trajectories (.trajectory, _traj) in this folder";
+        return Err(FileError::new(path, what));
+    }
+    Ok(files)
 }
 
 /// Reads demonstrations from whatever can be read, each with the name by which errors call it.
@@ -181,7 +189,7 @@ mod tests {
         assert_eq!(read(&[], &[]).expect_err("nothing"), "no traces");
         let error = read(&[], &[""]).expect_err("an empty folder");
         assert!(
-            error.ends_with("there are no traces (.jsonl) or trajectories (.trajectory) in this folder"),
+            error.ends_with("there are no traces (.jsonl) or trajectories (.trajectory, _traj) in this folder"),
             "{error}"
         );
         assert_eq!(read(&[("a.jsonl", " \n")], &["a.jsonl"]).expect_err("blank"), "a.jsonl: the file is empty");

@@ -29,7 +29,7 @@ mod values;
 mod verdict;
 
 pub use dataset::{Dataset, Record, Repeated, Trace, TraceAction, TraceHeader, Transition};
-pub use dataset_file::{any_trace_from, dataset_from, read_any_trace, read_dataset};
+pub use dataset_file::{any_trace_from, dataset_from, demonstrations_at, read_any_trace, read_dataset};
 pub use environment::{Acted, Reset, World, WorldError, instance_of};
 pub use file_error::FileError;
 pub use hierarchy_file::{TypesFile, hierarchy_from_text, read_hierarchy, read_types};
@@ -44,7 +44,7 @@ pub use snapshot::{Entity, Relation, Scene, Snapshot, Value};
 pub use source::source_of_file;
 pub use task_file::{TASK_FORMAT, TaskError, TaskFile, read_task, write_task};
 pub use text_file::{read_text, text_from, write_file};
-pub use trace_file::read_trace;
+pub use trace_file::{read_trace, trace_from};
 pub use trace_line::{TRACE_FORMAT, TraceLine};
 pub use trace_reader::{TraceItem, TraceReader};
 pub use trace_writer::TraceWriter;

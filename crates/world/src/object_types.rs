@@ -69,7 +69,7 @@ impl ObjectTypes {
     /// trajectory that it goes with.
     pub fn from_problems(folder: &Path) -> Result<Self, FileError> {
         let mut types = Self { folder: Some(folder.to_owned()), ..Self::default() };
-        for path in files_of(folder, |name| name.ends_with(".pddl"))? {
+        for path in Self::problems_at(folder)? {
             match read_text(&path).and_then(|text| pddl_objects(&path, &text)) {
                 Ok((Some(DefinitionKind::Domain), objects)) => types.shared.extend(objects),
                 read => {
@@ -81,6 +81,14 @@ impl ObjectTypes {
             return Err(FileError::new(folder, "there is no problem file (.pddl) in this folder"));
         }
         Ok(types)
+    }
+
+    /// The files of a folder that [`from_problems`](Self::from_problems) reads, sorted by name.
+    ///
+    /// # Errors
+    /// [`FileError`] if the folder cannot be read.
+    pub fn problems_at(folder: &Path) -> Result<Vec<PathBuf>, FileError> {
+        files_of(folder, |name| name.ends_with(".pddl"))
     }
 
     /// The types of the objects of a trajectory.

@@ -22,7 +22,11 @@ pub(crate) fn file_name(path: &Path) -> Option<Symbol> {
     path.file_name().map(|name| Symbol::from(name.to_string_lossy().into_owned()))
 }
 
-pub(crate) fn trace_from<R: BufRead>(
+/// Reads the rest of a trace; errors call it `path`.
+///
+/// # Errors
+/// As for [`read_trace`].
+pub fn trace_from<R: BufRead>(
     path: &Path,
     mut reader: TraceReader<R>,
     parser: &mut Parser,

@@ -162,6 +162,7 @@ impl Supervisor {
     /// Catches Ctrl-C from now on, which a program can do once.
     pub(super) fn install(quiet: bool) -> Result<Self, Failure> {
         let interrupt = Interrupt::install()?;
+        interrupt.heeded();
         Ok(Self { quiet, stopper: Arc::new(move || interrupt.is_set()) })
     }
 

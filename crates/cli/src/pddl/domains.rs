@@ -103,7 +103,7 @@ fn folder_above(folder: &Path) -> PathBuf {
 }
 
 /// The name of the domain in a file, in lower case, if there is one.
-pub(crate) fn declared_name(path: &Path) -> Option<String> {
+fn declared_name(path: &Path) -> Option<String> {
     let text = read_text(path).ok()?;
     let document = Document::read(&text).ok()?;
     let definition = Definition::only(&document, DefinitionKind::Domain).ok()?;

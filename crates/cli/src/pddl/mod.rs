@@ -13,8 +13,6 @@ use crate::exit::Exit;
 use crate::failure::Failure;
 use check::check;
 
-pub(crate) use domains::declared_name;
-
 /// Check PDDL files, and lay them out
 #[derive(Debug, clap::Args)]
 #[command(

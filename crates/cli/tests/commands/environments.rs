@@ -1,10 +1,7 @@
 //! Environments in other programs, and how they fail.
 #![cfg(unix)]
 
-use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
-
-use crate::common::{Folder, Transcript, program};
+use crate::common::{Folder, Transcript};
 
 #[test]
 fn the_kitchen_as_another_program() {
@@ -71,35 +68,4 @@ fn environments_that_fail() {
     let begins = r#"{"task":"T1.1","solved":false,"ending":"broken_off","why":""#;
     assert!(ended.code == 35 && ended.out.starts_with(begins), "{ended}");
     insta::assert_snapshot!(transcript.0);
-}
-
-/// What Ctrl-C does to a program that waits, and how soon.
-fn interrupted(folder: &Folder, command: &str) -> (Option<i32>, String) {
-    let mut command = program(command);
-    command.current_dir(folder.path("")).stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped());
-    let mut child = command.spawn().expect("the program starts");
-    // Held open, so that an answer may come yet.
-    let _input = child.stdin.take();
-    std::thread::sleep(Duration::from_secs(1));
-    let killed = Command::new("kill").arg("-INT").arg(child.id().to_string()).status();
-    assert!(killed.expect("there is kill").success());
-    let begun = Instant::now();
-    let ended = child.wait_with_output().expect("it ends");
-    assert!(begun.elapsed() < Duration::from_secs(5), "it took {:?}", begun.elapsed());
-    (ended.status.code(), String::from_utf8_lossy(&ended.stderr).into_owned())
-}
-
-#[test]
-fn interrupted_before_it_has_said_who_it_is() {
-    let folder = Folder::kitchen();
-    let ended = interrupted(&folder, "run kitchen.json K/tasks/T1.1.json --env 'sleep 30'");
-    assert_eq!(ended, (Some(130), "error: stopped\n".to_owned()));
-}
-
-#[test]
-fn interrupted_while_somebody_is_asked() {
-    let folder = Folder::kitchen();
-    let (code, said) = interrupted(&folder, "run kitchen.json K/tasks/T1.1.json --kitchen --confirm=all");
-    assert_eq!(code, Some(130), "{said}");
-    assert!(said.ends_with("[s]top: no answer: stopped\n"), "{said}");
 }

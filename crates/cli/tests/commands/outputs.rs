@@ -112,6 +112,20 @@ fn a_full_disk_is_an_error() {
 fn what_is_read_is_not_written_over() {
     let folder = Folder::kitchen();
     let names = ["K/demos/cut_lettuce.jsonl", "K/types.pddl", "kitchen.json", "K/tasks/T1.1.json"];
+    std::fs::create_dir(folder.path("bells")).expect("made");
+    for name in ["1_bell_traj", "2.trajectory", "3.pddl"] {
+        folder.write(&format!("bells/{name}"), "((:init (rung a)))");
+    }
+    folder.write("objects.json", "{}");
+    folder.run("export kitchen.json K/tasks/T1.1.json -o P").succeeds();
+    for (from, to) in
+        [("K/tasks/T1.1.json", "several.2"), ("P/domain.pddl", "sas_plan"), ("P/problem.pddl", "sas_plan.1")]
+    {
+        folder.write(to, folder.read(from));
+    }
+    symlink("K/tasks/T1.1.json", folder.path("linked.1")).expect("linked");
+    std::fs::hard_link(folder.path("K/tasks/T1.1.json"), folder.path("hard")).expect("linked");
+    std::fs::hard_link(folder.path("several.2"), folder.path("hard-too")).expect("linked");
     let before = names.map(|name| folder.read(name));
     for command in [
         "learn K/demos --types K/types.pddl -o K/demos/cut_lettuce.jsonl",
@@ -120,11 +134,28 @@ fn what_is_read_is_not_written_over() {
         "plan kitchen.json K/tasks/T1.1.json -o kitchen.json",
         "plan kitchen.json K/tasks/T1.1.json -o K/tasks/T1.1.json",
         "run kitchen.json K/tasks/T1.1.json --kitchen --events K/tasks/T1.1.json",
+        "learn bells --types K/types.pddl -o bells/1_bell_traj",
+        "learn bells --types K/types.pddl -o bells/2.trajectory",
+        "learn bells --types K/types.pddl --problems bells -o bells/3.pddl",
+        "learn bells --types K/types.pddl --objects objects.json -o objects.json",
+        "learn --into kitchen.json --forget K/demos/cut_lettuce.jsonl -o K/demos/cut_lettuce.jsonl",
+        "plan kitchen.json several.2 --plans 2 -o several",
+        "plan kitchen.json several.2 --better -o several",
+        "plan kitchen.json linked.1 --plans 2 -o linked",
+        "plan kitchen.json K/tasks/T1.1.json -o hard",
+        "plan sas_plan P/problem.pddl",
+        "plan P/domain.pddl sas_plan.1 --plans 2",
+        "export kitchen.json K/tasks/T1.1.json -o P --types P/names.json",
+        "run kitchen.json several.2 --kitchen --events hard-too",
     ] {
         let refused = folder.refuses(31, command);
         assert!(refused.err.contains("is read, and would be written over"), "{command}: {}", refused.err);
     }
     assert_eq!(names.map(|name| folder.read(name)), before);
+    // A number that is not written is no danger.
+    folder.run("plan kitchen.json several.2 --plans 1 -o several").succeeds();
+    folder.write("several.3", folder.read("several.2"));
+    folder.run("plan kitchen.json several.3 --plans 2 -o several").succeeds();
     folder.run("learn K/demos --types K/types.pddl -o kitchen.json").succeeds();
 }
 
