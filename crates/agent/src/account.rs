@@ -16,7 +16,7 @@ pub enum Ending {
     /// The goal was seen to hold.
     Solved,
     /// There is nothing left to try.
-    NoPlan(Explanation),
+    NoPlan(Explanation<String>),
     /// The plan that was left had been carried out from the very same state before, as expected, and did not lead to
     /// the goal: something happens besides what the model says.
     Circular,

@@ -46,10 +46,10 @@ impl Proposal {
         }
     }
 
-    /// Why there is no plan.
-    pub fn explain(&self) -> Explanation {
+    /// Why there is no plan, in the words of the text that the model was made from.
+    pub fn explain(&self) -> Explanation<String> {
         match &self.searched {
-            Searched::Own(planner) => planner.explain(),
+            Searched::Own(planner) => planner.explain().in_words(&self.model),
             Searched::External(_) => Explanation::ToldByPlanner,
         }
     }

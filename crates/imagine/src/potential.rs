@@ -15,8 +15,10 @@ pub(crate) fn are_distinct(schema: &ActionSchema, binding: &[Option<&Symbol>]) -
     schema.distinct.iter().all(|&(a, b)| bound(a).is_none() || bound(a) != bound(b))
 }
 
-/// One potential action for every add effect that can be made equal to the atom.
+/// One potential action for every add effect that can be made equal to the atom. An effect for every choice of objects of
+/// its own is none: wider parameters of the action do not widen that choice.
 pub(crate) fn get_potential_actions<'a>(model: &'a ActionModel, atom: &'a GroundAtom) -> Vec<Potential<'a>> {
-    let potential = model.adding(atom).map(|(schema, binding)| Potential { schema, binding });
+    let adding = model.adding(atom).filter(|(_, effect, _)| effect.parameters.is_empty());
+    let potential = adding.map(|(schema, _, binding)| Potential { schema, binding });
     potential.filter(|potential| are_distinct(potential.schema, &potential.binding)).collect()
 }

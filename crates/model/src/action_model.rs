@@ -1,10 +1,11 @@
 //! What plans are made with: types, predicates, actions and axioms.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Display;
 
 use crate::{
-    ActionSchema, ArgumentTypes, Axiom, Hierarchy, LiftedAtom, NameCollision, Parameter, PddlNames, Replacement,
-    Symbol, Term, TypeId, cover,
+    ActionSchema, ArgumentTypes, Atom, Axiom, Hierarchy, LiftedAtom, NameCollision, Parameter, PddlNames, Replacement,
+    Symbol, Term, TypeId, Wording, cover,
 };
 
 /// A symbolic action model (paper: 𝒜 with 𝓗): everything that planning needs, and nothing of what it was learned from,
@@ -24,6 +25,9 @@ pub struct ActionModel {
     pub actions: Vec<ActionSchema>,
     /// How derived predicates follow; learned models have none.
     pub axioms: Vec<Axiom>,
+    /// How the text that the model was made from puts what predicates stand for that it does not have. Learned models
+    /// have none, and a model's file holds none.
+    pub wordings: BTreeMap<Symbol, Wording>,
 }
 
 /// The PDDL names of everything that a model names.
@@ -54,6 +58,15 @@ impl ActionModel {
     /// The action of this name.
     pub fn action(&self, name: &str) -> Option<&ActionSchema> {
         self.actions.iter().find(|action| action.name == *name)
+    }
+
+    /// An atom, or its negation, in the words of the text that the model was made from.
+    pub fn in_words<T: Display>(&self, atom: &Atom<T>, positive: bool) -> String {
+        if let Some(wording) = self.wordings.get(&atom.predicate) {
+            return wording.say(&atom.args, positive);
+        }
+        let text = atom.map(ToString::to_string).to_string();
+        if positive { text } else { format!("not {text}") }
     }
 
     /// Whether an object of this type is an actor.

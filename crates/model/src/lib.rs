@@ -53,6 +53,7 @@ pub mod testing;
 mod unify;
 mod unknown;
 mod view;
+mod wording;
 
 pub use action::{ActionSchema, Cost, Effect, Literal, Parameter};
 pub use action_model::{ActionModel, ModelPddlNames, UniqueNames, describe_replacements, schema_name};
@@ -91,6 +92,7 @@ pub use task::Task;
 pub use unify::{effect_bijections, is_bijection};
 pub use unknown::{Pattern, Slot, Unknown};
 pub use view::{AtomKind, View};
+pub use wording::Wording;
 
 /// The hash map of all crates: fast, and never iterated into a result.
 pub type HashMap<K, V> = rustc_hash::FxHashMap<K, V>;

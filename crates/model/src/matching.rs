@@ -1,6 +1,6 @@
 //! Matching patterns with atoms: which objects the parameters stand for, if the two are to be the same.
 
-use crate::{ActionModel, ActionSchema, GroundAtom, LiftedAtom, Symbol, Term};
+use crate::{ActionModel, ActionSchema, Effect, GroundAtom, LiftedAtom, Symbol, Term};
 
 /// What a pattern has in one place: an object, or a parameter by its number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -92,16 +92,16 @@ impl LiftedAtom {
 
 impl ActionModel {
     /// The effects that may add an atom if types and preconditions allow it: the actions, in the model's order, each with
-    /// the objects that the atom puts in the place of its parameters.
+    /// the effect and the objects that the atom puts in the place of the action's parameters and then of the effect's own.
     pub fn adding<'a>(
         &'a self,
         atom: &'a GroundAtom,
-    ) -> impl Iterator<Item = (&'a ActionSchema, Vec<Option<&'a Symbol>>)> {
-        let effects = self.actions.iter().flat_map(|schema| schema.adds().map(move |add| (schema, add)));
-        effects.filter_map(|(schema, add)| {
-            let mut binding = vec![None; schema.parameters.len()];
-            add.bind(atom, &mut binding, |_, _, _| true)?;
-            Some((schema, binding))
+    ) -> impl Iterator<Item = (&'a ActionSchema, &'a Effect, Vec<Option<&'a Symbol>>)> {
+        let effects = self.actions.iter().flat_map(|schema| schema.effects.iter().map(move |effect| (schema, effect)));
+        effects.filter(|(_, effect)| effect.literal.positive).filter_map(|(schema, effect)| {
+            let mut binding = vec![None; schema.parameters.len() + effect.parameters.len()];
+            effect.literal.atom.bind(atom, &mut binding, |_, _, _| true)?;
+            Some((schema, effect, binding))
         })
     }
 }

@@ -85,7 +85,8 @@ impl LearnedModel {
             predicates.insert(name, types);
         }
         let axioms = file.axioms.into_iter().map(|axiom| read_axiom(axiom, &hierarchy)).collect::<Result<_, _>>()?;
-        let model = ActionModel { hierarchy, predicates, actor, constants, actions, axioms };
+        let wordings = BTreeMap::new();
+        let model = ActionModel { hierarchy, predicates, actor, constants, actions, axioms, wordings };
         drop(total);
         Ok(Self { model, parse: file.parse, options: file.options, evidence, refused: file.refused_merges })
     }

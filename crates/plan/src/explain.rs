@@ -1,9 +1,15 @@
 //! Why there is no plan.
+//!
+//! Nothing is said that is not known. That an atom is not reached even if nothing is ever deleted means that it never holds;
+//! that it is reached so means nothing. An action that is never used has no schema, and one with alternatives has several, so
+//! "no action can add it" is true where "no action adds it" may not be, and what the nearest schema needs is said of one case.
 
-use std::fmt;
+use std::fmt::{self, Display};
 
 use serde::{Deserialize, Serialize};
-use typelift_model::{ActionModel, ActionSchema, GroundAtom, HashMap, LiftedAtom, Symbol, Task, Term, TypeId};
+use typelift_model::{
+    ActionModel, ActionSchema, Axiom, Effect, GroundAtom, HashMap, LiftedAtom, Parameter, Symbol, Task, Term, TypeId,
+};
 
 use crate::Restrictions;
 use crate::reach::Reachable;
@@ -41,6 +47,8 @@ pub enum Obstacle {
     Banned,
     /// A precondition cannot be reached; parameters that the atom leaves open are written by their type.
     Precondition(String),
+    /// The condition of the effect cannot be reached; written in the same way.
+    Condition(String),
 }
 
 impl fmt::Display for Obstacle {
@@ -52,6 +60,7 @@ impl fmt::Display for Obstacle {
             Self::NoObject { ty } => write!(f, "there is no {ty} that may be used"),
             Self::Banned => f.write_str("what fits it was tried and failed"),
             Self::Precondition(atom) => write!(f, "it needs {atom}, which cannot be reached"),
+            Self::Condition(atom) => write!(f, "it adds that only with {atom}, which cannot be reached"),
         }
     }
 }
@@ -60,99 +69,157 @@ impl fmt::Display for Obstacle {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Nearest {
-    /// Its name.
+    /// Its name, as plans have it.
     pub action: Symbol,
-    /// What is missing; empty if only no choice of objects satisfies all preconditions at once.
+    /// Whether it has other ways to be used or to add the atom: then the obstacles are those of the nearest way.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub one_of_several: bool,
+    /// What is missing; empty if only no choice of objects satisfies all that it needs.
     pub obstacles: Vec<Obstacle>,
+}
+
+fn is_false(value: &bool) -> bool {
+    !*value
+}
+
+/// Why a goal atom cannot be reached.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Unreached {
+    /// No action can add it.
+    NoAction,
+    /// This action comes nearest to adding it.
+    Nearest(Nearest),
+    /// It is derived, and follows from nothing that can be reached. For each rule, something that the rule needs and that
+    /// cannot be reached; nothing at all if there is a rule of which everything can be reached, but not together.
+    Derived(Vec<String>),
+    /// It is what the text puts as a part of the goal, and contradicts itself or what never changes.
+    Impossible,
 }
 
 /// A goal atom that cannot be reached even if nothing is ever deleted.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct UnreachableGoal {
+pub struct UnreachableGoal<A = GroundAtom> {
     /// The atom.
-    pub atom: GroundAtom,
-    /// The nearest action; none if no action adds an atom of this predicate.
-    pub nearest: Option<Nearest>,
-    /// Whether its predicate is derived, so that no action adds it.
-    pub derived: bool,
+    pub atom: A,
+    /// Why not.
+    pub why: Unreached,
 }
 
-/// Why there is no plan.
+/// Why there is no plan. The planner says it of the model's atoms; [`in_words`](Explanation::in_words) of what these stand
+/// for in the text that the model was made from.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
-pub enum Explanation {
+pub enum Explanation<A = GroundAtom> {
     /// Some goal atoms cannot be reached at all.
-    Unreachable(Vec<UnreachableGoal>),
-    /// Two goal atoms exclude each other: whatever achieves the one deletes the other for good.
+    Unreachable(Vec<UnreachableGoal<A>>),
+    /// No state that can be reached holds both of two goal atoms.
     Exclusive {
         /// The one.
-        one: GroundAtom,
+        one: A,
         /// The other.
-        other: GroundAtom,
+        other: A,
     },
     /// Another planner says so, and no more.
     ToldByPlanner,
-    /// These atoms must not hold in the end, but do from the start, and no action deletes them.
-    NeverDeleted(Vec<GroundAtom>),
-    /// Each goal atom can be reached, but not all together; where the search came closest, these were missing.
+    /// These atoms must not hold in the end, but do from the start, and no action can delete them.
+    NeverDeleted(Vec<A>),
+    /// No state that can be reached satisfies the whole goal; where the search came closest, these were missing.
     NotTogether {
-        /// The missing goal atoms, and whether each must hold.
-        missing: Vec<(GroundAtom, bool)>,
+        /// The missing goal atoms, and whether each must hold. None where the search did not look at any state.
+        missing: Vec<(A, bool)>,
     },
 }
 
-impl fmt::Display for Explanation {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl Explanation {
+    /// The same in the words of the text that this model was made from.
+    pub fn in_words(&self, model: &ActionModel) -> Explanation<String> {
+        let words = |atom: &GroundAtom| model.in_words(atom, true);
         match self {
             Self::Unreachable(goals) => {
-                for (i, goal) in goals.iter().enumerate() {
-                    if i > 0 {
-                        f.write_str("\n")?;
-                    }
-                    write!(f, "{} cannot be reached: ", goal.atom)?;
-                    match &goal.nearest {
-                        None if goal.derived => f.write_str("it follows from nothing that can be reached")?,
-                        None => write!(f, "no action adds {}", goal.atom.predicate)?,
-                        Some(nearest) if nearest.obstacles.is_empty() => {
-                            write!(f, "no choice of objects satisfies all preconditions of {}", nearest.action)?;
-                        }
-                        Some(nearest) => {
-                            let obstacles: Vec<String> = nearest.obstacles.iter().map(ToString::to_string).collect();
-                            write!(f, "the nearest action is {}, but {}", nearest.action, obstacles.join(", and "))?;
-                        }
-                    }
-                }
-                Ok(())
+                let goal = |goal: &UnreachableGoal| UnreachableGoal { atom: words(&goal.atom), why: goal.why.clone() };
+                Explanation::Unreachable(goals.iter().map(goal).collect())
             }
-            Self::Exclusive { one, other } => {
-                write!(f, "{one} and {other} cannot hold together: whatever achieves the one deletes the other")
-            }
-            Self::ToldByPlanner => f.write_str("the planner says that there is none"),
-            Self::NeverDeleted(atoms) => {
-                let lines: Vec<String> = atoms
-                    .iter()
-                    .map(|atom| format!("{atom} must not hold in the end, but no action deletes it"))
-                    .collect();
-                f.write_str(&lines.join("\n"))
-            }
+            Self::Exclusive { one, other } => Explanation::Exclusive { one: words(one), other: words(other) },
+            Self::ToldByPlanner => Explanation::ToldByPlanner,
+            Self::NeverDeleted(atoms) => Explanation::NeverDeleted(atoms.iter().map(words).collect()),
             Self::NotTogether { missing } => {
-                let missing: Vec<String> = missing
-                    .iter()
-                    .map(|(atom, positive)| format!("{}{atom}", if *positive { "" } else { "not " }))
-                    .collect();
-                write!(
-                    f,
-                    "each goal can be reached alone, but not all together; at best this is missing: {}",
-                    missing.join(" ")
-                )
+                // A formula is negated in its own words.
+                let literal = |(atom, positive): &(GroundAtom, bool)| match model.wordings.get(&atom.predicate) {
+                    Some(_) => (model.in_words(atom, *positive), true),
+                    None => (words(atom), *positive),
+                };
+                Explanation::NotTogether { missing: missing.iter().map(literal).collect() }
             }
         }
     }
 }
 
-/// For each unreachable goal atom, the action that comes nearest to it.
+impl<A: Display> Display for Explanation<A> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unreachable(goals) => {
+                let lines: Vec<String> = goals.iter().map(ToString::to_string).collect();
+                f.write_str(&lines.join("\n"))
+            }
+            Self::Exclusive { one, other } => {
+                write!(f, "{one} and {other} cannot hold together: no state that can be reached holds both")
+            }
+            Self::ToldByPlanner => f.write_str("the planner says that there is none"),
+            Self::NeverDeleted(atoms) => {
+                let lines: Vec<String> = atoms
+                    .iter()
+                    .map(|atom| format!("{atom} must not hold in the end, but no action can delete it"))
+                    .collect();
+                f.write_str(&lines.join("\n"))
+            }
+            Self::NotTogether { missing } => {
+                f.write_str("no state that can be reached satisfies the goal")?;
+                let missing: Vec<String> = missing
+                    .iter()
+                    .map(|(atom, positive)| format!("{}{atom}", if *positive { "" } else { "not " }))
+                    .collect();
+                if missing.is_empty() { Ok(()) } else { write!(f, "; at best this is missing: {}", missing.join(", ")) }
+            }
+        }
+    }
+}
+
+impl<A: Display> Display for UnreachableGoal<A> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let atom = &self.atom;
+        match &self.why {
+            Unreached::Impossible => write!(f, "{atom} can never hold"),
+            why => write!(f, "{atom} cannot be reached: {why}"),
+        }
+    }
+}
+
+impl Display for Unreached {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoAction => f.write_str("no action can add it"),
+            Self::Nearest(Nearest { action, obstacles, .. }) if obstacles.is_empty() => {
+                write!(f, "no choice of objects lets {action} add it")
+            }
+            Self::Nearest(Nearest { action, one_of_several, obstacles }) => {
+                let way = if *one_of_several { "in the nearest of its cases " } else { "" };
+                let obstacles: Vec<String> = obstacles.iter().map(ToString::to_string).collect();
+                write!(f, "the nearest action is {action}, but {way}{}", obstacles.join(", and "))
+            }
+            Self::Derived(needed) if needed.is_empty() => f.write_str("it follows from nothing that can be reached"),
+            Self::Derived(needed) => {
+                write!(f, "it follows only from what cannot be reached: {}", needed.join(", "))
+            }
+            Self::Impossible => f.write_str("it can never hold"),
+        }
+    }
+}
+
+/// For each unreachable goal atom, why it is not reached.
 pub(crate) fn unreachable(
     model: &ActionModel,
     task: &Task,
@@ -160,19 +227,8 @@ pub(crate) fn unreachable(
     reachable: &Reachable,
 ) -> Vec<UnreachableGoal> {
     let context = Context { model, task, restrictions, reached: reachable.atoms_by_predicate() };
-    let nearest = |atom: &GroundAtom| {
-        let adding = model.adding(atom).map(|(schema, binding)| context.obstacles(schema, &binding));
-        adding.min_by_key(|nearest| nearest.obstacles.len())
-    };
-    reachable
-        .unreached_goals()
-        .iter()
-        .map(|atom| UnreachableGoal {
-            atom: atom.clone(),
-            nearest: nearest(atom),
-            derived: model.axioms.iter().any(|axiom| axiom.head.predicate == atom.predicate),
-        })
-        .collect()
+    let goals = reachable.unreached_goals().iter();
+    goals.map(|atom| UnreachableGoal { atom: atom.clone(), why: context.why(atom) }).collect()
 }
 
 struct Context<'a> {
@@ -184,17 +240,77 @@ struct Context<'a> {
 }
 
 impl Context<'_> {
-    /// What keeps `schema` from adding an atom that puts these objects in the place of its parameters.
-    fn obstacles(&self, schema: &ActionSchema, binding: &[Option<&Symbol>]) -> Nearest {
+    /// Why an atom is not reached.
+    fn why(&self, atom: &GroundAtom) -> Unreached {
+        let rules = || self.model.axioms.iter().filter(|axiom| axiom.head.predicate == atom.predicate);
+        if rules().next().is_some() {
+            return Unreached::Derived(self.needed(atom, rules()));
+        }
+        if self.model.wordings.contains_key(&atom.predicate) {
+            return Unreached::Impossible;
+        }
+        let ways: Vec<Nearest> =
+            self.model.adding(atom).map(|(schema, effect, binding)| self.nearest(schema, effect, &binding)).collect();
+        let Some(nearest) = ways.iter().min_by_key(|way| way.obstacles.len()) else { return Unreached::NoAction };
+        let of_same = ways.iter().filter(|way| way.action == nearest.action).count();
+        Unreached::Nearest(Nearest { one_of_several: of_same > 1, ..nearest.clone() })
+    }
+
+    /// For each rule by which an atom could follow, something that it needs and that cannot be reached; nothing if one of
+    /// them has no such thing.
+    fn needed<'r>(&self, atom: &GroundAtom, rules: impl Iterator<Item = &'r Axiom>) -> Vec<String> {
+        let mut needed = Vec::new();
+        for axiom in rules {
+            let mut binding = vec![None; axiom.parameters.len()];
+            if axiom.head.bind(atom, &mut binding, |_, _, _| true).is_none() {
+                continue;
+            }
+            let body = axiom.body.iter().filter(|literal| literal.positive && !literal.atom.is_equality());
+            let missing = body.map(|l| &l.atom).find(|need| !self.reachable_somehow(&axiom.parameters, need, &binding));
+            let Some(missing) = missing else { return Vec::new() };
+            let text = self.written(&axiom.parameters, missing, &binding);
+            if !needed.contains(&text) {
+                needed.push(text);
+            }
+        }
+        needed
+    }
+
+    /// What keeps an effect of `schema` from adding an atom that puts these objects in the place of its parameters.
+    fn nearest(&self, schema: &ActionSchema, effect: &Effect, binding: &[Option<&Symbol>]) -> Nearest {
+        let mut obstacles = self.unfit(schema, effect, binding);
+        let parameters = [&schema.parameters[..], &effect.parameters].concat();
+        let missing = |need: &&LiftedAtom| !self.reachable_somehow(&parameters, need, binding);
+        let written = |need: &LiftedAtom| self.written(&parameters, need, binding);
+        if obstacles.is_empty() {
+            let precondition = schema.positive_preconditions().find(missing);
+            obstacles.extend(precondition.map(|need| Obstacle::Precondition(written(need))));
+        }
+        if obstacles.is_empty() {
+            let condition = effect.condition.iter().filter(|l| l.positive && !l.atom.is_equality());
+            obstacles.extend(condition.map(|l| &l.atom).find(missing).map(|need| Obstacle::Condition(written(need))));
+        }
+        let is_banned = || self.restrictions.banned.iter().any(|ban| ban.call.name == schema.call.name);
+        let may_not_meet = || self.restrictions.types.iter().any(|exclusion| exclusion.concerns(schema));
+        if obstacles.is_empty() && (is_banned() || may_not_meet()) {
+            obstacles.push(Obstacle::Banned);
+        }
+        Nearest { action: schema.signature().name, one_of_several: false, obstacles }
+    }
+
+    /// The objects that do not fit the parameters of an action and of its effect.
+    fn unfit(&self, schema: &ActionSchema, effect: &Effect, binding: &[Option<&Symbol>]) -> Vec<Obstacle> {
         let hierarchy = &self.model.hierarchy;
         let mut obstacles = Vec::new();
-        for (index, (parameter, object)) in schema.parameters.iter().zip(binding).enumerate() {
+        for (index, (parameter, object)) in schema.parameters.iter().chain(&effect.parameters).zip(binding).enumerate()
+        {
+            // Restrictions are about what an action is told.
+            let allowed = |name: &Symbol, ty: TypeId| {
+                index >= schema.parameters.len()
+                    || self.restrictions.allows(name, &schema.call.name) && self.allows_type(schema, index, ty)
+            };
             let Some(object) = object else {
-                let usable = |(name, ty): (&Symbol, &TypeId)| {
-                    hierarchy.is_a(*ty, parameter.ty)
-                        && self.restrictions.allows(name, &schema.call.name)
-                        && self.allows_type(schema, index, *ty)
-                };
+                let usable = |(name, ty): (&Symbol, &TypeId)| hierarchy.is_a(*ty, parameter.ty) && allowed(name, *ty);
                 if !self.task.init.objects.iter().any(usable) {
                     obstacles.push(Obstacle::NoObject { ty: hierarchy.name(parameter.ty).clone() });
                 }
@@ -207,20 +323,11 @@ impl Context<'_> {
             if !hierarchy.is_a(ty, parameter.ty) {
                 let (found, expected) = (hierarchy.name(ty).clone(), hierarchy.name(parameter.ty).clone());
                 obstacles.push(Obstacle::Type { object: (*object).clone(), found, expected });
-            } else if !self.restrictions.allows(object, &schema.call.name) || !self.allows_type(schema, index, ty) {
+            } else if !allowed(object, ty) {
                 obstacles.push(Obstacle::Excluded { object: (*object).clone() });
             }
         }
-        if obstacles.is_empty() {
-            let missing = schema.positive_preconditions().find(|pre| !self.reachable_somehow(schema, pre, binding));
-            obstacles.extend(missing.map(|pre| Obstacle::Precondition(written(schema, pre, binding, self.model))));
-        }
-        let is_banned = || self.restrictions.banned.iter().any(|ban| ban.call.name == schema.call.name);
-        let may_not_meet = || self.restrictions.types.iter().any(|exclusion| exclusion.concerns(schema));
-        if obstacles.is_empty() && (is_banned() || may_not_meet()) {
-            obstacles.push(Obstacle::Banned);
-        }
-        Nearest { action: schema.name.clone(), obstacles }
+        obstacles
     }
 
     /// Whether an object of this type may be this parameter, whatever the others are.
@@ -230,28 +337,25 @@ impl Context<'_> {
         self.restrictions.allows_types(schema, &types, &self.model.hierarchy)
     }
 
-    /// Whether some instance of a precondition under a partial binding is reachable.
-    fn reachable_somehow(&self, schema: &ActionSchema, pre: &LiftedAtom, binding: &[Option<&Symbol>]) -> bool {
+    /// Whether some instance of an atom over these parameters is reachable under a partial binding.
+    fn reachable_somehow(&self, parameters: &[Parameter], atom: &LiftedAtom, binding: &[Option<&Symbol>]) -> bool {
         let is_of_type = |p: usize, object: &Symbol, _: &_| {
-            self.model.hierarchy.is_a(self.task.init.objects[object], schema.parameters[p].ty)
+            self.model.hierarchy.is_a(self.task.init.objects[object], parameters[p].ty)
         };
         let mut binding = binding.to_vec();
-        self.reached
-            .get(&pre.predicate)
-            .into_iter()
-            .flatten()
-            .any(|fact| pre.bind(fact, &mut binding, is_of_type).is_some())
+        let reached = self.reached.get(&atom.predicate).into_iter().flatten();
+        reached.into_iter().any(|fact| atom.bind(fact, &mut binding, is_of_type).is_some())
     }
-}
 
-/// A lifted atom with bound parameters written as objects and others as `any TYPE`.
-fn written(schema: &ActionSchema, atom: &LiftedAtom, binding: &[Option<&Symbol>], model: &ActionModel) -> String {
-    atom.map(|term| match term {
-        Term::Const(name) => name.to_string(),
-        Term::Param(p) => match binding[*p as usize] {
-            Some(object) => object.to_string(),
-            None => format!("any {}", model.hierarchy.name(schema.parameters[*p as usize].ty)),
-        },
-    })
-    .to_string()
+    /// A lifted atom in the text's words, with bound parameters written as objects and others as `any TYPE`.
+    fn written(&self, parameters: &[Parameter], atom: &LiftedAtom, binding: &[Option<&Symbol>]) -> String {
+        let atom = atom.map(|term| match term {
+            Term::Const(name) => name.to_string(),
+            Term::Param(p) => match binding[*p as usize] {
+                Some(object) => object.to_string(),
+                None => format!("any {}", self.model.hierarchy.name(parameters[*p as usize].ty)),
+            },
+        });
+        self.model.in_words(&atom, true)
+    }
 }

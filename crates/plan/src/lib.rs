@@ -53,7 +53,7 @@ mod widening;
 #[cfg(test)]
 mod worked;
 
-pub use explain::{Explanation, Nearest, Obstacle, UnreachableGoal};
+pub use explain::{Explanation, Nearest, Obstacle, UnreachableGoal, Unreached};
 pub use external::{ExternalFailure, ExternalPlanner, PlanDefect, StepDefect};
 pub use fact::FactId;
 pub use ground::{GroundTask, TieOrder, ground};

@@ -23,7 +23,7 @@ pub struct AccountView {
     pub why: Option<String>,
     /// Why there was nothing left to try, as data.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub reasons: Option<Explanation>,
+    pub reasons: Option<Explanation<String>>,
     /// What is to be noted about the goal, in words.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,

@@ -32,7 +32,7 @@ pub struct AnswerView {
     pub explanation: Option<String>,
     /// The same as data.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub reasons: Option<Explanation>,
+    pub reasons: Option<Explanation<String>>,
     /// What is to be noted about the goal, in words.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
@@ -66,7 +66,7 @@ impl AnswerView {
 }
 
 /// Why a proposal that ended so has no plan; of a search that was ended early nothing can be said.
-pub fn why_none(proposal: &Proposal, last: &Outcome) -> Option<Explanation> {
+pub fn why_none(proposal: &Proposal, last: &Outcome) -> Option<Explanation<String>> {
     matches!(last, Outcome::Unsolvable | Outcome::NoMorePlans).then(|| proposal.explain())
 }
 

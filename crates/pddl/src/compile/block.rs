@@ -8,6 +8,7 @@ use super::error::{CompileError, CompilePart};
 use super::inventions::Inventions;
 use super::names::FreshNames;
 use super::normal::Normal;
+use super::said::said;
 use super::world::World;
 use crate::{Formula, PddlAtom, PddlTerm, Typed};
 
@@ -148,19 +149,20 @@ impl<'w> Block<'w> {
         positive: bool,
         visible: &mut Visible<'f>,
     ) -> Result<Normal, CompileError> {
-        match formula {
-            Formula::Atom(atom) => Ok(Normal::Literal(Literal { atom: self.atom(atom, visible)?, positive })),
-            Formula::Equal(a, b) => Ok(Normal::equality(self.term(a, visible)?, self.term(b, visible)?, positive)),
-            Formula::Not(inner) => self.normal(inner, !positive, visible),
-            Formula::And(parts) => self.junction(parts, positive, positive, visible),
-            Formula::Or(parts) => self.junction(parts, !positive, positive, visible),
+        let normal = match formula {
+            Formula::Atom(atom) => Normal::Literal(Literal { atom: self.atom(atom, visible)?, positive }),
+            Formula::Equal(a, b) => Normal::equality(self.term(a, visible)?, self.term(b, visible)?, positive),
+            Formula::Not(inner) => return self.normal(inner, !positive, visible),
+            Formula::And(parts) => self.junction(parts, positive, positive, visible)?,
+            Formula::Or(parts) => self.junction(parts, !positive, positive, visible)?,
             Formula::Imply(premise, conclusion) => {
                 let parts = [self.normal(premise, !positive, visible)?, self.normal(conclusion, positive, visible)?];
-                Ok(Normal::junction(!positive, parts))
+                Normal::junction(!positive, parts)
             }
-            Formula::Exists(variables, body) => self.quantified(variables, body, !positive, positive, visible),
-            Formula::Forall(variables, body) => self.quantified(variables, body, positive, positive, visible),
-        }
+            Formula::Exists(variables, body) => self.quantified(variables, body, !positive, positive, visible)?,
+            Formula::Forall(variables, body) => self.quantified(variables, body, positive, positive, visible)?,
+        };
+        Ok(normal.said_as(|| said(formula, positive, visible)))
     }
 
     fn junction<'f>(

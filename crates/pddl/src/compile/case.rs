@@ -7,7 +7,7 @@
 
 use std::collections::BTreeSet;
 
-use typelift_model::Literal;
+use typelift_model::{Literal, Wording};
 
 use super::block::Block;
 use super::error::CompileError;
@@ -41,7 +41,7 @@ impl Block<'_> {
     pub(super) fn few_cases(&mut self, condition: &Normal) -> Result<Vec<Case>, CompileError> {
         let cases = self.cases(condition)?;
         if cases.len() > self.world.limits.cases {
-            Ok(self.as_one("or", &cases)?.into_iter().collect())
+            Ok(self.as_one(condition.said(), &cases)?.into_iter().collect())
         } else {
             Ok(cases)
         }
@@ -51,7 +51,7 @@ impl Block<'_> {
     pub(super) fn cases(&mut self, condition: &Normal) -> Result<Vec<Case>, CompileError> {
         match condition {
             Normal::Literal(literal) => Ok(vec![Case::of(literal.clone())]),
-            Normal::Or(parts) => {
+            Normal::Or(parts, _) => {
                 let mut cases = Vec::with_capacity(parts.len());
                 for part in parts {
                     cases.extend(self.cases(part)?);
@@ -59,17 +59,17 @@ impl Block<'_> {
                 Ok(cases)
             }
             Normal::And(parts) => self.conjunction(parts),
-            Normal::Exists(variables, body) => {
+            Normal::Exists(variables, body, _) => {
                 let mut cases = self.cases(body)?;
                 for case in &mut cases {
                     case.exists.extend(variables);
                 }
                 Ok(cases)
             }
-            Normal::Forall(variables, body) => {
-                let exception = Normal::Exists(variables.clone(), Box::new(body.negated()));
+            Normal::Forall(..) => {
+                let exception = condition.negated();
                 let exceptions = self.cases(&exception)?;
-                Ok(match self.invent("forall", &exceptions)? {
+                Ok(match self.invent("forall", exception.said(), &exceptions)? {
                     Some(atom) => vec![Case::of(Literal::negative(atom))],
                     None => vec![Case::default()],
                 })
@@ -83,7 +83,7 @@ impl Block<'_> {
         for part in parts {
             let mut cases = self.cases(part)?;
             if cases.len() > 1 && product.len() * cases.len() > self.world.limits.cases {
-                cases = self.as_one("or", &cases)?.into_iter().collect();
+                cases = self.as_one(part.said(), &cases)?.into_iter().collect();
             }
             match cases.as_slice() {
                 [] => return Ok(Vec::new()),
@@ -98,8 +98,8 @@ impl Block<'_> {
     }
 
     /// A single case that holds if and only if one of these does; `None` if none ever can.
-    fn as_one(&mut self, kind: &str, cases: &[Case]) -> Result<Option<Case>, CompileError> {
-        Ok(self.invent(kind, cases)?.map(|atom| Case::of(Literal::positive(atom))))
+    fn as_one(&mut self, said: Option<&Wording>, cases: &[Case]) -> Result<Option<Case>, CompileError> {
+        Ok(self.invent("or", said, cases)?.map(|atom| Case::of(Literal::positive(atom))))
     }
 
     /// The variables that cases mention and do not own, in order.

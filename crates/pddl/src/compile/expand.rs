@@ -8,6 +8,7 @@ use typelift_model::{GroundAtom, LiftedAtom, Literal, Symbol, Term, TypeId};
 use super::block::Block;
 use super::error::CompileError;
 use super::normal::Normal;
+use super::said::Said;
 
 /// What decides.
 pub(super) struct Expansion<'e, 'w> {
@@ -38,10 +39,27 @@ impl<'e, 'w> Expansion<'e, 'w> {
         match condition {
             Normal::Literal(literal) => self.literal(literal),
             Normal::And(parts) => self.junction(true, parts),
-            Normal::Or(parts) => self.junction(false, parts),
-            Normal::Exists(variables, body) => self.quantified(false, variables, body),
-            Normal::Forall(variables, body) => self.quantified(true, variables, body),
+            Normal::Or(parts, said) => Ok(self.junction(false, parts)?.said_as(|| self.said(said))),
+            Normal::Exists(variables, body, said) => {
+                Ok(self.quantified(false, variables, body)?.said_as(|| self.said(said)))
+            }
+            Normal::Forall(variables, body, said) => {
+                Ok(self.quantified(true, variables, body)?.said_as(|| self.said(said)))
+            }
         }
+    }
+
+    /// How the text puts it, with the objects that are chosen.
+    fn said(&self, said: &Said) -> Said {
+        let mut said = said.as_deref()?.clone();
+        for (_, term) in &mut said.variables {
+            if let Term::Param(variable) = term
+                && let Some(object) = &self.chosen[*variable as usize]
+            {
+                *term = Term::Const(object.clone());
+            }
+        }
+        Some(Rc::new(said))
     }
 
     fn junction(&mut self, all: bool, parts: &[Normal]) -> Result<Normal, CompileError> {
@@ -121,10 +139,10 @@ impl<'e, 'w> Expansion<'e, 'w> {
     fn size(&self, condition: &Normal) -> u64 {
         match condition {
             Normal::Literal(_) => 1,
-            Normal::And(parts) | Normal::Or(parts) => {
+            Normal::And(parts) | Normal::Or(parts, _) => {
                 parts.iter().fold(1, |sum: u64, part| sum.saturating_add(self.size(part)))
             }
-            Normal::Exists(variables, body) | Normal::Forall(variables, body) => {
+            Normal::Exists(variables, body, _) | Normal::Forall(variables, body, _) => {
                 self.instances(variables).saturating_mul(self.size(body)).max(1)
             }
         }

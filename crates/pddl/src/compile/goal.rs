@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use typelift_model::{ActionModel, Atom, Goal, GroundAtom, Literal, Symbol};
+use typelift_model::{ActionModel, Atom, Goal, GroundAtom, Literal, Symbol, Wording};
 
 use super::block::{Block, Visible};
 use super::case::Case;
@@ -10,6 +10,7 @@ use super::error::{CompileError, CompilePart};
 use super::expand::{Expansion, ground};
 use super::inventions::Inventions;
 use super::normal::Normal;
+use super::said::text;
 use super::world::World;
 use crate::Formula;
 
@@ -28,7 +29,10 @@ pub(super) fn compile_goal(
     let literals = match goal_literals(&mut block, &parts)? {
         Some(literals) => literals,
         None => {
-            vec![Literal::positive(Atom { predicate: inventions.predicate("unsatisfiable-goal"), args: Vec::new() })]
+            let part = impossible_part(&mut block, goal, init, fluents)?;
+            let wording = Wording { formula: text(part).into(), positive: true, variables: Vec::new() };
+            let predicate = inventions.predicate("unsatisfiable-goal", Some(wording));
+            vec![Literal::positive(Atom { predicate, args: Vec::new() })]
         }
     };
     let mut compiled = Goal::default();
@@ -37,6 +41,25 @@ pub(super) fn compile_goal(
         if literal.positive { compiled.required.push(atom) } else { compiled.forbidden.push(atom) }
     }
     Ok(compiled)
+}
+
+/// Of a goal that can never hold, the part that alone cannot, if one is found; else the whole.
+fn impossible_part<'g>(
+    block: &mut Block<'_>,
+    goal: &'g Formula,
+    init: &BTreeSet<GroundAtom>,
+    fluents: &BTreeSet<Symbol>,
+) -> Result<&'g Formula, CompileError> {
+    let Formula::And(parts) = goal else { return Ok(goal) };
+    let normal = |part| block.normal(part, true, &mut Visible::new());
+    let normals: Vec<Normal> = parts.iter().map(normal).collect::<Result<_, _>>()?;
+    let mut expansion = Expansion::new(block, init, fluents);
+    for (part, normal) in parts.iter().zip(&normals) {
+        if expansion.expand(normal)?.decided() == Some(false) {
+            return impossible_part(block, part, init, fluents);
+        }
+    }
+    Ok(goal)
 }
 
 /// The parts of a goal, expanded. A literal that never changes and does not hold stays: it says why the goal cannot be
@@ -66,7 +89,7 @@ fn goal_literals(block: &mut Block<'_>, parts: &[Normal]) -> Result<Option<Vec<L
         let cases = block.cases(part)?;
         let new = match cases.as_slice() {
             [Case { exists, literals }] if exists.is_empty() => literals.clone(),
-            _ => match block.invent_as("goal", &cases)? {
+            _ => match block.invent_as("goal", part.said(), &cases)? {
                 Some(atom) => vec![Literal::positive(atom)],
                 None => return Ok(None),
             },

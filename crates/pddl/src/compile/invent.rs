@@ -2,12 +2,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use typelift_model::{Atom, Axiom, LiftedAtom, Literal, MOST_PARAMETERS, Parameter, Symbol, Term};
+use typelift_model::{Atom, Axiom, LiftedAtom, Literal, MOST_PARAMETERS, Parameter, Symbol, Term, Wording};
 
 use super::block::Block;
 use super::case::Case;
 use super::error::CompileError;
 use super::inventions::{Rule, rule};
+use super::said::of_predicate;
 use super::solve::solve;
 use super::world::World;
 
@@ -16,14 +17,25 @@ impl Block<'_> {
     const EACH_CASE: usize = 3;
 
     /// An atom of a derived predicate that holds if and only if one of the cases does; `None` if none ever can.
-    /// Its arguments are the variables that the cases mention and do not own.
-    pub(super) fn invent(&mut self, kind: &str, cases: &[Case]) -> Result<Option<LiftedAtom>, CompileError> {
+    /// Its arguments are the variables that the cases mention and do not own; `said` is how the text puts that one of the
+    /// cases holds.
+    pub(super) fn invent(
+        &mut self,
+        kind: &str,
+        said: Option<&Wording>,
+        cases: &[Case],
+    ) -> Result<Option<LiftedAtom>, CompileError> {
         let name = format!("{kind}-{}", self.name);
-        self.invent_as(&name, cases)
+        self.invent_as(&name, said, cases)
     }
 
     /// As [`invent`](Self::invent), with this name before the number.
-    pub(super) fn invent_as(&mut self, name: &str, cases: &[Case]) -> Result<Option<LiftedAtom>, CompileError> {
+    pub(super) fn invent_as(
+        &mut self,
+        name: &str,
+        said: Option<&Wording>,
+        cases: &[Case],
+    ) -> Result<Option<LiftedAtom>, CompileError> {
         let free = Self::free_variables(cases);
         self.check_parameters(free.len())?;
         let mut axioms = self.axioms(&Symbol::default(), &free, cases)?;
@@ -35,7 +47,7 @@ impl Block<'_> {
         let predicate = match self.inventions.known.get(&rules) {
             Some(known) => known.clone(),
             None => {
-                let predicate = self.inventions.predicate(name);
+                let predicate = self.inventions.predicate(name, said.map(|said| of_predicate(said, &free)));
                 for axiom in &mut axioms {
                     axiom.head.predicate = predicate.clone();
                 }

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use typelift_model::{ActionModel, Axiom, Literal, Symbol, Term, TypeId};
+use typelift_model::{ActionModel, Axiom, Literal, Symbol, Term, TypeId, Wording};
 
 use super::names::FreshNames;
 
@@ -15,6 +15,8 @@ pub(super) struct Inventions {
     names: FreshNames,
     /// What was invented.
     predicates: BTreeSet<Symbol>,
+    /// How the text puts what they stand for.
+    wordings: BTreeMap<Symbol, Wording>,
     /// The axioms, of stated and of invented predicates; the strata are still to be found.
     pub(super) axioms: Vec<Axiom>,
     /// Those that stand for the same rules.
@@ -27,12 +29,14 @@ impl Inventions {
     /// None yet, for a model that uses these names for predicates and functions.
     pub(super) fn new(used: impl IntoIterator<Item = Symbol>) -> Self {
         let names = FreshNames::with(used);
-        Self { names, predicates: BTreeSet::new(), axioms: Vec::new(), known: BTreeMap::new(), literals: 0 }
+        let (predicates, wordings) = (BTreeSet::new(), BTreeMap::new());
+        Self { names, predicates, wordings, axioms: Vec::new(), known: BTreeMap::new(), literals: 0 }
     }
 
-    /// A new predicate without axioms.
-    pub(super) fn predicate(&mut self, base: &str) -> Symbol {
+    /// A new predicate without axioms, which the text puts like this.
+    pub(super) fn predicate(&mut self, base: &str, wording: Option<Wording>) -> Symbol {
         let name = self.names.numbered(base, 1);
+        self.wordings.extend(wording.map(|wording| (name.clone(), wording)));
         self.predicates.insert(name.clone());
         name
     }
@@ -40,6 +44,7 @@ impl Inventions {
     /// Writes what was invented into the model.
     pub(super) fn finish(self, model: &mut ActionModel) {
         model.axioms.extend(self.axioms);
+        model.wordings.extend(self.wordings);
         let mut uses = model.argument_uses();
         for name in self.predicates {
             // One that nothing uses is of a goal that can never hold, and has no arguments.

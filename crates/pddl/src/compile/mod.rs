@@ -24,6 +24,7 @@ mod law;
 mod limits;
 mod names;
 mod normal;
+mod said;
 mod schema;
 mod solve;
 mod strata;

@@ -1,11 +1,16 @@
 //! Formulas in negation normal form: negation stands before atoms only.
 
-use typelift_model::{Atom, EQUALS, Literal, Symbol, Term};
+use std::rc::Rc;
+
+use typelift_model::{Atom, EQUALS, Literal, Symbol, Term, Wording};
+
+use super::said::Said;
 
 /// A formula in negation normal form. Its parameters are variables of a [`Block`](super::block::Block).
 ///
 /// The constructors keep it simple: no truth or falsity inside of anything but a quantifier, no conjunction directly in
-/// a conjunction, no disjunction directly in a disjunction, no quantifier without variables.
+/// a conjunction, no disjunction directly in a disjunction, no quantifier without variables. What predicates may be
+/// invented for knows how the text puts it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Normal {
     /// An atom, an equality, or the negation of one.
@@ -13,24 +18,24 @@ pub(super) enum Normal {
     /// A conjunction; true without parts.
     And(Vec<Normal>),
     /// A disjunction; false without parts.
-    Or(Vec<Normal>),
+    Or(Vec<Normal>, Said),
     /// For some choice of objects for these variables.
-    Exists(Vec<u32>, Box<Normal>),
+    Exists(Vec<u32>, Box<Normal>, Said),
     /// For every choice of objects for these variables.
-    Forall(Vec<u32>, Box<Normal>),
+    Forall(Vec<u32>, Box<Normal>, Said),
 }
 
 impl Normal {
     /// What always holds, or what never does.
     pub(super) fn constant(truth: bool) -> Self {
-        if truth { Self::And(Vec::new()) } else { Self::Or(Vec::new()) }
+        if truth { Self::And(Vec::new()) } else { Self::Or(Vec::new(), None) }
     }
 
     /// Whether it is true or false by its form alone.
     pub(super) fn decided(&self) -> Option<bool> {
         match self {
             Self::And(parts) if parts.is_empty() => Some(true),
-            Self::Or(parts) if parts.is_empty() => Some(false),
+            Self::Or(parts, _) if parts.is_empty() => Some(false),
             _ => None,
         }
     }
@@ -52,7 +57,7 @@ impl Normal {
                 part if part.decided() == Some(all) => {}
                 part if part.decided() == Some(!all) => return Self::constant(!all),
                 Self::And(inner) if all => flat.extend(inner),
-                Self::Or(inner) if !all => flat.extend(inner),
+                Self::Or(inner, _) if !all => flat.extend(inner),
                 part => flat.push(part),
             }
         }
@@ -60,7 +65,7 @@ impl Normal {
             Some(only) if flat.is_empty() => only,
             last => {
                 flat.extend(last);
-                if all { Self::And(flat) } else { Self::Or(flat) }
+                if all { Self::And(flat) } else { Self::Or(flat, None) }
             }
         }
     }
@@ -72,16 +77,16 @@ impl Normal {
             return body;
         }
         match body {
-            Self::Forall(inner, body) if all => {
+            Self::Forall(inner, body, _) if all => {
                 variables.extend(inner);
-                Self::Forall(variables, body)
+                Self::Forall(variables, body, None)
             }
-            Self::Exists(inner, body) if !all => {
+            Self::Exists(inner, body, _) if !all => {
                 variables.extend(inner);
-                Self::Exists(variables, body)
+                Self::Exists(variables, body, None)
             }
-            body if all => Self::Forall(variables, Box::new(body)),
-            body => Self::Exists(variables, Box::new(body)),
+            body if all => Self::Forall(variables, Box::new(body), None),
+            body => Self::Exists(variables, Box::new(body), None),
         }
     }
 
@@ -89,10 +94,30 @@ impl Normal {
     pub(super) fn negated(&self) -> Self {
         match self {
             Self::Literal(literal) => Self::Literal(negated(literal)),
-            Self::And(parts) => Self::Or(parts.iter().map(Self::negated).collect()),
-            Self::Or(parts) => Self::And(parts.iter().map(Self::negated).collect()),
-            Self::Exists(variables, body) => Self::Forall(variables.clone(), Box::new(body.negated())),
-            Self::Forall(variables, body) => Self::Exists(variables.clone(), Box::new(body.negated())),
+            Self::And(parts) => Self::Or(parts.iter().map(Self::negated).collect(), None),
+            Self::Or(parts, _) => Self::And(parts.iter().map(Self::negated).collect()),
+            Self::Exists(variables, body, said) => {
+                Self::Forall(variables.clone(), Box::new(body.negated()), opposite(said))
+            }
+            Self::Forall(variables, body, said) => {
+                Self::Exists(variables.clone(), Box::new(body.negated()), opposite(said))
+            }
+        }
+    }
+
+    /// The same, which the text puts like this.
+    pub(super) fn said_as(mut self, new: impl FnOnce() -> Said) -> Self {
+        if let Self::Or(_, said) | Self::Exists(_, _, said) | Self::Forall(_, _, said) = &mut self {
+            *said = new();
+        }
+        self
+    }
+
+    /// How the text puts it; literals and conjunctions of them need no other words.
+    pub(super) fn said(&self) -> Option<&Wording> {
+        match self {
+            Self::Or(_, said) | Self::Exists(_, _, said) | Self::Forall(_, _, said) => said.as_deref(),
+            Self::Literal(_) | Self::And(_) => None,
         }
     }
 }
@@ -101,6 +126,12 @@ impl Normal {
 pub(super) fn equality(a: Term, b: Term, positive: bool) -> Literal {
     let args = if a <= b { vec![a, b] } else { vec![b, a] };
     Literal { atom: Atom { predicate: Symbol::new(EQUALS), args }, positive }
+}
+
+/// How the text puts the opposite.
+fn opposite(said: &Said) -> Said {
+    let said = said.as_deref()?;
+    Some(Rc::new(Wording { positive: !said.positive, ..said.clone() }))
 }
 
 /// The opposite of a literal.

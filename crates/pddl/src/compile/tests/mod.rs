@@ -176,10 +176,10 @@ fn axioms(model: &ActionModel) -> Vec<String> {
     model.axioms.iter().map(shown_axiom).collect()
 }
 
-/// The model, written to its file and read again.
+/// The model, written to its file and read again; with the wordings, which the file does not hold.
 pub(super) fn written_and_read(model: &ActionModel) -> ActionModel {
     let text = LearnedModel::from(model.clone()).to_json().expect("it is written");
-    LearnedModel::from_json(&text).expect("it is read").model
+    ActionModel { wordings: model.wordings.clone(), ..LearnedModel::from_json(&text).expect("it is read").model }
 }
 
 fn compiled(domain: &Domain) -> ActionModel {

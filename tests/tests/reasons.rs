@@ -1,0 +1,105 @@
+//! Why there is no plan, in the words of the domain and the problem.
+
+use typelift::agent::{Options, propose};
+use typelift::model::Budget;
+use typelift::plan::{Outcome, Restrictions};
+use typelift::world::DomainFile;
+
+/// What is said of a problem without a plan.
+fn reason(domain: &str, problem: &str) -> String {
+    let domain = DomainFile::from_text("domain".as_ref(), format!("(define (domain d) {domain})")).expect("a domain");
+    let problem = format!("(define (problem p) (:domain d) {problem})");
+    let (model, task) = domain.problem_from_text("problem".as_ref(), &problem).expect("a problem");
+    let budget = Budget::with_expansions(10_000);
+    let proposal = propose(&model, &task, &Restrictions::default(), &Options::default(), &budget).expect("an answer");
+    assert_eq!(proposal.outcome, Outcome::Unsolvable);
+    proposal.explain().to_string()
+}
+
+const HARBOUR: &str = "(:types ship crate) (:constants s t - ship c d - crate)
+    (:predicates (on ?c - crate ?s - ship) (sealed ?c - crate) (tested ?s - ship) (ready ?s - ship) (sailed ?s - ship))";
+
+fn in_harbour(blocks: &str, init: &str, goal: &str) -> String {
+    let problem = format!("(:init {init}) (:goal {goal})");
+    reason(&format!("{HARBOUR} {blocks}"), &problem)
+}
+
+#[test]
+fn an_effect_for_every_choice_of_objects_says_what_it_is_conditional_on() {
+    let press = |parameters: &str, effect: &str| {
+        let action = format!("(:action press :parameters ({parameters}) :effect {effect})");
+        in_harbour(&action, "(sealed c)", "(and (tested s) (tested t))")
+    };
+    assert_eq!(
+        press("", "(forall (?s - ship ?c - crate) (when (on ?c ?s) (tested ?s)))"),
+        "tested(s) cannot be reached: the nearest action is press, but it adds that only with on(any crate,s), which \
+         cannot be reached\ntested(t) cannot be reached: the nearest action is press, but it adds that only with \
+         on(any crate,t), which cannot be reached"
+    );
+    // The effect's own variables are numbered after the action's.
+    assert_eq!(
+        press("?c - crate", "(and (tested s) (forall (?t - ship) (when (on ?c ?t) (tested ?t))))"),
+        "tested(t) cannot be reached: the nearest action is press, but it adds that only with on(any crate,t), which \
+         cannot be reached"
+    );
+}
+
+#[test]
+fn what_only_another_case_needs_is_not_said_to_be_needed() {
+    let sail = "(:action sail :parameters (?s - ship) :precondition (or (ready ?s) (tested ?s)) :effect (sailed ?s))";
+    assert_eq!(
+        in_harbour(sail, "", "(sailed s)"),
+        "sailed(s) cannot be reached: the nearest action is sail, but in the nearest of its cases it needs ready(s), which \
+         cannot be reached"
+    );
+}
+
+#[test]
+fn an_action_that_is_never_used_is_not_said_not_to_be_there() {
+    let odd = "(:action odd :parameters (?s - ship) :precondition (or) :effect (sailed ?s))";
+    assert_eq!(in_harbour(odd, "", "(sailed s)"), "sailed(s) cannot be reached: no action can add it");
+}
+
+#[test]
+fn a_universal_precondition_is_not_taken_for_reachable() {
+    let sail = "(:action sail :parameters (?s - ship)
+        :precondition (forall (?c - crate) (imply (on ?c ?s) (sealed ?c))) :effect (sailed ?s))";
+    assert_eq!(
+        in_harbour(sail, "(on c s)", "(sailed s)"),
+        "no state that can be reached satisfies the goal; at best this is missing: sailed(s)"
+    );
+}
+
+#[test]
+fn a_part_of_the_goal_is_said_as_it_is_written() {
+    let seal = "(:action seal :parameters (?c - crate) :precondition (ready s) :effect (sealed ?c))";
+    for (goal, said) in [
+        ("(or)", "(or) can never hold"),
+        ("(and (sealed c) (or (= c d) (and)) (= c d))", "(= c d) can never hold"),
+        ("(and (sealed c) (not (sealed c)))", "(and (sealed c) (not (sealed c))) can never hold"),
+        ("(exists (?s - (either ship)) (sailed ?s))", "(exists (?s - ship) (sailed ?s)) can never hold"),
+        (
+            "(or (sealed c) (and (sealed d) (not (sealed c))))",
+            "(or (sealed c) (and (sealed d) (not (sealed c)))) cannot be reached: it follows only from what cannot be \
+             reached: sealed(c), sealed(d)",
+        ),
+        (
+            "(forall (?s - ship) (exists (?c - crate) (and (sealed ?c) (not (on ?c ?s)))))",
+            "(exists (?c - crate) (and (sealed ?c) (not (on ?c ?s)))) where ?s is s cannot be reached: it follows only from \
+             what cannot be reached: sealed(c), sealed(d)",
+        ),
+    ] {
+        assert_eq!(in_harbour(seal, "", goal).lines().next(), Some(said), "{goal}");
+    }
+}
+
+#[test]
+fn what_stands_for_many_alternatives_is_said_as_it_is_written() {
+    // Seven times two alternatives are more cases than are multiplied out.
+    let ways: Vec<String> = (1..=7).map(|i| format!("(or (sealed c) (on ?c{i} s))")).collect();
+    let parameters: String = (1..=7).map(|i| format!("?c{i} ")).collect();
+    let condition = format!("(exists ({parameters} - crate) (and {}))", ways.join(" "));
+    let sail = format!("(:action sail :parameters () :precondition {condition} :effect (sailed s))");
+    let said = in_harbour(&sail, "", "(sailed s)");
+    assert!(said.contains("it needs (or (sealed c) (on ?c7 s)) where ?c7 is any crate, which"), "{said}");
+}
