@@ -7,7 +7,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 use typelift_model::{
-    ActionModel, Budget, Goal, GroundAtom, GroundCall, Hierarchy, Pattern, Plan, State, Symbol, Unknown,
+    ActionModel, Budget, Goal, GroundAtom, GroundCall, Hierarchy, Pattern, Plan, State, Symbol, Unknown, json_message,
 };
 
 use crate::account::Account;
@@ -241,7 +241,7 @@ impl Episode {
         struct Envelope {
             format: String,
         }
-        let unreadable = |error: serde_json::Error| RestoreError::Unreadable(error.to_string());
+        let unreadable = |error: serde_json::Error| RestoreError::Unreadable(json_message(&error));
         let Envelope { format } = serde_json::from_str(text).map_err(unreadable)?;
         if format != EPISODE_FORMAT {
             return Err(RestoreError::Format { found: format });

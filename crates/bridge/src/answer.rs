@@ -1,6 +1,7 @@
 //! Reads an answer, and says where one is malformed.
 
 use serde_json::{Map, Value as Json};
+use typelift_model::json_message as message;
 use typelift_world::{Answer, Entity, Relation, Scene, Value};
 
 /// Why a line is not an answer, and where.
@@ -21,7 +22,7 @@ pub(crate) fn read_answer(line: &[u8]) -> Result<Answer, Unreadable> {
         Err(error) => error,
     };
     let json: Json = serde_json::from_str(text)
-        .map_err(|e| Unreadable::NotJson(format!("{} at column {}", message(&e), e.column())))?;
+        .map_err(|e| Unreadable::NotJson(format!("{} at column {}", syntax_message(&e), e.column())))?;
     let Json::Object(fields) = json else {
         return Err(Unreadable::Malformed { id: None, what: "it is not an object".to_owned() });
     };
@@ -29,10 +30,10 @@ pub(crate) fn read_answer(line: &[u8]) -> Result<Answer, Unreadable> {
     Err(Unreadable::Malformed { id: fields.get("id").and_then(Json::as_u64), what })
 }
 
-/// An error's message without its place.
-fn message(error: &serde_json::Error) -> String {
-    let full = error.to_string();
-    full.rsplit_once(" at line ").map_or(full.as_str(), |(text, _)| text).to_owned()
+/// What is wrong with a text where it is said already that it is not JSON.
+fn syntax_message(error: &serde_json::Error) -> String {
+    let message = message(error);
+    message.strip_prefix("this is not JSON: ").map_or(message.clone(), str::to_owned)
 }
 
 /// What is wrong with an answer's fields.

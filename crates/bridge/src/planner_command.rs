@@ -4,7 +4,7 @@
 //! processes.
 
 use std::fs::{self, File};
-use std::io;
+use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
@@ -29,6 +29,15 @@ const LATENESS: Duration = Duration::from_millis(250);
 
 /// Lines of what the planner printed that are told when it fails.
 const TOLD: usize = 5;
+
+/// Bytes at the end of what the planner printed in which those lines are looked for.
+const LAST_BYTES: u64 = 64 << 10;
+
+/// Bytes that a plan file may have: hundreds of thousands of steps.
+const PLAN_LIMIT: u64 = 16 << 20;
+
+/// Bytes that are held, at most, for each byte of a plan file while it is read.
+const HELD_FOR_A_BYTE: u64 = 32;
 
 /// A command that plans: `fast-downward --alias lama-first --plan-file {plan} {domain} {problem}`.
 ///
@@ -94,7 +103,8 @@ impl PlannerCommand {
         let failed = |error: &dyn std::fmt::Display| ExternalFailure::NotAsked { reason: error.to_string() };
         let options = ExportOptions { domain: "model".into(), problem: "task".into(), level: self.level };
         let Exported { domain, problem, names } = export(model, Some(task), &options).map_err(|e| failed(&e))?;
-        let folder = tempfile::tempdir().map_err(|e| failed(&e))?;
+        // Should this program be killed, its name tells whose it is.
+        let folder = tempfile::Builder::new().prefix("typelift-planner-").tempdir().map_err(|e| failed(&e))?;
         let write = |name: &str, text: String| fs::write(folder.path().join(name), text).map_err(|e| failed(&e));
         write("domain.pddl", domain.to_string())?;
         write("problem.pddl", problem.map(|problem| problem.to_string()).unwrap_or_default())?;
@@ -116,19 +126,35 @@ impl PlannerCommand {
         Process::start_alone(&mut command)
     }
 
-    /// What the planner left: a plan, or the reason why there is none.
-    fn answer(
+    /// The plan that the planner left, read within the limits.
+    fn plan_left(
+        &self,
+        exchange: &Exchange,
+        file: &Path,
+        (model, task): (&ActionModel, &Task),
+        budget: &Budget,
+    ) -> Result<Outcome, ExternalFailure> {
+        let unusable = |defect| ExternalFailure::UnusablePlan { program: self.program(), defect };
+        let length = fs::metadata(file).map_or(0, |data| data.len());
+        if length > PLAN_LIMIT {
+            let reason = format!("it is longer than {} MB", PLAN_LIMIT >> 20);
+            return Err(unusable(PlanDefect::Unreadable { reason }));
+        }
+        if let Some(limit) = &budget.memory
+            && (limit.probe)().saturating_add(length * HELD_FOR_A_BYTE) > limit.bytes
+        {
+            return Ok(Stop::Memory.into());
+        }
+        exchange.read(file, model, task).map(Outcome::Solved).map_err(unusable)
+    }
+
+    /// Why the planner left no plan.
+    fn reason(
         &self,
         exchange: &Exchange,
         status: Option<ExitStatus>,
         stopped: Option<Stop>,
-        model: &ActionModel,
-        task: &Task,
     ) -> Result<Outcome, ExternalFailure> {
-        if let Some(file) = exchange.plan_file() {
-            let plan = exchange.read(&file, model, task).map(Outcome::Solved);
-            return plan.map_err(|defect| ExternalFailure::UnusablePlan { program: self.program(), defect });
-        }
         if let Some(stop) = stopped {
             return Ok(stop.into());
         }
@@ -158,11 +184,14 @@ impl ExternalPlanner for PlannerCommand {
             }
         }
         let status = process.end(if stopped.is_some() { GRACE } else { Duration::ZERO });
-        match self.answer(&exchange, status, stopped, model, task) {
+        if let Some(file) = exchange.plan_file() {
+            return self.plan_left(&exchange, &file, (model, task), budget);
+        }
+        match self.reason(&exchange, status, stopped) {
             Err(ExternalFailure::NoAnswer { .. }) if is_stopped_within(budget, LATENESS) => {
                 Ok(Outcome::Stopped(Stop::Cancelled))
             }
-            answer => answer,
+            reason => reason,
         }
     }
 }
@@ -218,7 +247,13 @@ impl Exchange {
 
     /// The last lines that the planner printed.
     fn last_words(&self) -> Vec<String> {
-        let log = fs::read(self.path("log")).unwrap_or_default();
+        // If the log cannot be read, there is nothing to tell.
+        let mut log = Vec::new();
+        let _ = File::open(self.path("log")).and_then(|mut file| {
+            let length = file.metadata()?.len();
+            file.seek(SeekFrom::Start(length.saturating_sub(LAST_BYTES)))?;
+            file.take(LAST_BYTES).read_to_end(&mut log)
+        });
         let text = String::from_utf8_lossy(&log);
         let lines: Vec<&str> = text.lines().filter(|line| !line.trim().is_empty()).collect();
         lines[lines.len().saturating_sub(TOLD)..].iter().map(|line| shorten(line)).collect()

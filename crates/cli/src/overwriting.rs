@@ -37,9 +37,9 @@ pub(crate) fn keep_inputs<'a, P: AsRef<Path>>(
 
 impl Output<'_> {
     /// Its files, as far as they are there; what is not there is no input.
-    fn existing(self) -> Vec<PathBuf> {
+    pub(crate) fn existing(self) -> Vec<PathBuf> {
         let (file, most) = match self {
-            Self::File(file) => return vec![file.to_owned()],
+            Self::File(file) => (file, 0),
             Self::Numbered { file, most } => (file, most),
         };
         let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
@@ -49,6 +49,7 @@ impl Output<'_> {
         let numbers = others.filter_map(|other| number(&other.to_string_lossy())).filter(|n| (1..=most).contains(n));
         let mut files: Vec<PathBuf> = numbers.map(|n| numbered(file, n)).collect();
         files.push(file.to_owned());
+        files.retain(|file| file.is_file());
         files.sort_unstable();
         files
     }

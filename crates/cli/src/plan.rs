@@ -67,6 +67,8 @@ struct FirstAnswer {
     model: ActionModel,
     task: Task,
     output: Option<PathBuf>,
+    /// What stands already where plans are written without being asked to.
+    existing: Vec<PathBuf>,
     /// When all was read.
     read: Duration,
     proposal: Result<Proposal, Stop>,
@@ -77,7 +79,7 @@ impl Plan {
         let interrupt = Interrupt::install()?;
         let memory = memory_held_from_now();
         let budget = self.planning.limits.budget(clock, &interrupt, None);
-        let FirstAnswer { model, task, output, read, proposal } =
+        let FirstAnswer { model, task, output, existing, read, proposal } =
             self.begin_watched(clock, &budget, &interrupt, quiet)?;
         // The answer need not wait for the memory to be freed.
         let mut proposal = match proposal {
@@ -115,6 +117,9 @@ impl Plan {
             };
         };
         self.write_plans(output.as_deref(), &plans, &proposal.model, &task, &interrupt)?;
+        if let Some(file) = output.as_deref().filter(|_| !quiet) {
+            self.say_replaced(&existing, file, plans.len());
+        }
         let exit = match &last {
             _ if !plans.is_empty() => Exit::Success,
             Outcome::Stopped(stop) => (*stop).into(),
@@ -160,6 +165,8 @@ impl Plan {
         let default_output = is_given.then(|| PathBuf::from(DEFAULT_OUTPUT));
         let output = self.output.clone().or(default_output);
         keep_inputs(output.as_deref().map(|file| self.written(file)), model.files().chain([&self.task]))?;
+        let unasked = output.as_deref().filter(|_| self.output.is_none());
+        let existing = unasked.map(|file| self.written(file).existing()).unwrap_or_default();
         let (model, task) = input.read_planning_task(&self.task, quiet)?;
         interrupt.heeded();
         let read = clock.elapsed();
@@ -168,7 +175,7 @@ impl Plan {
             Err(ProposeError::Stopped(stop)) => Err(stop),
             proposal => Ok(proposal?),
         };
-        Ok(FirstAnswer { model, task, output, read, proposal })
+        Ok(FirstAnswer { model, task, output, existing, read, proposal })
     }
 
     /// What is written where the plans are to go to this file.
@@ -235,6 +242,24 @@ impl Plan {
             }
         }
         Ok(())
+    }
+
+    /// Says which of the files that were there already these plans stand in now.
+    fn say_replaced(&self, existing: &[PathBuf], file: &Path, plans: usize) {
+        let is_replaced = |path: &&PathBuf| match *path == file {
+            true => self.better && plans > 0 || plans == 1,
+            false => (self.better || plans > 1) && (1..).take(plans).any(|number| numbered(file, number) == **path),
+        };
+        let mut replaced = existing.iter().filter(is_replaced);
+        let Some(first) = replaced.next() else { return };
+        let others = match replaced.count() {
+            0 => String::new(),
+            more => format!(" (and {more} more)"),
+        };
+        let first = first.display();
+        anstream::eprintln!(
+            "{WARNING}note{WARNING:#}: {first}{others} was there already, and is replaced; -o writes elsewhere"
+        );
     }
 
     /// Says why there is no plan, and whether imagination would help; if not, what may be wrong with the goal.

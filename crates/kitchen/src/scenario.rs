@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
-use typelift_model::Symbol;
+use typelift_model::{Symbol, json_message};
 use typelift_world::Snapshot;
 
 use crate::kind::ItemKind;
@@ -108,7 +108,7 @@ impl Scenario {
     pub fn from_json(value: Option<&serde_json::Value>) -> Result<Self, ScenarioError> {
         match value {
             None => Ok(Self::default()),
-            Some(value) => Self::deserialize(value).map_err(|error| ScenarioError::Form(error.to_string())),
+            Some(value) => Self::deserialize(value).map_err(|error| ScenarioError::Form(json_message(&error))),
         }
     }
 }
@@ -195,7 +195,7 @@ mod tests {
         let state = serde_json::to_value(build(&json!({})).expect("a room").snapshot()).expect("JSON");
         let refused = [
             (json!({"itmes": []}), "unknown field `itmes`, expected one of `state`, `items`, `filler`, `broken`"),
-            (json!({"filler": "some"}), "unknown variant `some`, expected one of `demonstrated`, `novel`, `none`"),
+            (json!({"filler": "some"}), "unknown word `some`, expected one of `demonstrated`, `novel`, `none`"),
             (json!("burger"), "the scenario is not understood: invalid type: string \"burger\""),
             (json!({"items": ["leek"]}), "the scenario asks for the item `leek`; there are plate, lettuce, tomato"),
             (json!({"items": ["lettuce_1"]}), "the scenario asks for the item `lettuce_1`"),

@@ -3,6 +3,7 @@
 use std::io::{self, BufRead, Write};
 
 use serde::Deserialize;
+use typelift_model::json_message;
 use typelift_world::{Answer, PROTOCOL, Request, RequestBody, Reset, World, WorldError};
 
 use crate::kitchen::Kitchen;
@@ -87,7 +88,7 @@ fn read_request(line: &[u8]) -> Result<Request, (u64, String)> {
     }
     serde_json::from_slice(line).map_err(|error| {
         let id = serde_json::from_slice::<Envelope>(line).map_or(0, |envelope| envelope.id);
-        (id, format!("the line is not a request of {PROTOCOL}: {error}"))
+        (id, format!("the line is not a request of {PROTOCOL}: {}", json_message(&error)))
     })
 }
 

@@ -6,14 +6,15 @@
 //! are put in order.
 
 use std::collections::BTreeMap;
-use std::fs::{File, OpenOptions, TryLockError, create_dir_all, read_dir, remove_file};
+use std::fs::{File, OpenOptions, TryLockError, create_dir_all};
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
-use typelift::world::{FileError, write_file};
+use typelift::model::json_message;
+use typelift::world::{FileError, remove_left_behind, write_file};
 
 /// The format of a run log.
 pub const FORMAT: &str = "lab-runs/1";
@@ -190,8 +191,8 @@ where
                     .to_owned(),
             )
         };
-        let Line { run, result } =
-            serde_json::from_slice(line).map_err(|error| damaged(format!("this is not a run: {}", reason(&error))))?;
+        let Line { run, result } = serde_json::from_slice(line)
+            .map_err(|error| damaged(format!("this is not a run: {}", json_message(&error))))?;
         if finished.insert(run, result).is_some() {
             return Err(damaged("this run is here twice".to_owned()));
         }
@@ -199,31 +200,11 @@ where
     Ok(finished)
 }
 
-/// The reason without the position, which would be one in a single line.
-fn reason(error: &serde_json::Error) -> String {
-    let text = error.to_string();
-    text.split(" at line ").next().unwrap_or_default().to_owned()
-}
-
 fn json_line(value: &impl Serialize) -> String {
     // Runs and results are structs, numbers and text, which always become JSON.
     let mut line = serde_json::to_string(value).unwrap_or_default();
     line.push('\n');
     line
-}
-
-/// Removes what a program that was killed while it replaced a file left beside it: `.table.csv.123-0.tmp`. If that
-/// fails they stay, which does no harm.
-fn remove_left_behind(folder: &Path) {
-    let is_left_behind = |name: &str| {
-        let number = name.strip_prefix('.').and_then(|name| name.strip_suffix(".tmp")?.rsplit('.').next());
-        number.is_some_and(|number| number.contains('-') && number.bytes().all(|b| b.is_ascii_digit() || b == b'-'))
-    };
-    for entry in read_dir(folder).into_iter().flatten().flatten() {
-        if is_left_behind(&entry.file_name().to_string_lossy()) {
-            let _ = remove_file(entry.path());
-        }
-    }
 }
 
 #[cfg(test)]

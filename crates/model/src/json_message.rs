@@ -18,23 +18,40 @@ fn message(error: &serde_json::Error) -> String {
         "recursion limit exceeded" => "this is nested too deeply".to_owned(),
         "number out of range" => "this number is too large".to_owned(),
         _ if error.is_syntax() => format!("this is not JSON: {text}"),
-        _ => match text.rsplit_once(", expected ") {
-            Some((found, expected)) => format!("{found}, expected {}", in_words(expected)),
-            None => text.to_owned(),
-        },
+        _ if text.starts_with("data did not match any variant") => "this is nothing that may stand here".to_owned(),
+        _ => {
+            let text = text.replacen("unknown variant `", "unknown word `", 1);
+            match text.rsplit_once(", expected ") {
+                Some((found, expected)) => format!("{found}, expected {}", in_words(expected)),
+                None => text,
+            }
+        }
     }
 }
 
-/// What Rust calls a type, as JSON does.
-fn in_words(expected: &str) -> &str {
+/// What Rust calls a type, as JSON does. Names of structs and enums mean nothing to whoever wrote the text.
+fn in_words(expected: &str) -> String {
+    let length = || Some(expected.rsplit_once(" with ")?.1.split_once(" element")?.0);
+    let is = |kinds: &[&str]| kinds.iter().any(|kind| expected.starts_with(kind));
     match expected {
-        "u64" | "u32" | "usize" => "a whole number, 0 or more",
-        "f64" => "a number",
-        "a sequence" => "a list",
-        "a map" => "an object",
-        "a tuple of size 2" => "a list of 2",
-        "a tuple of size 3" => "a list of 3",
-        other => other,
+        "u64" | "u32" | "u16" | "u8" | "usize" => "a whole number, 0 or more".to_owned(),
+        "i64" | "i32" | "i16" | "i8" | "isize" => "a whole number".to_owned(),
+        "f64" | "f32" => "a number".to_owned(),
+        "a boolean" => "true or false".to_owned(),
+        "a sequence" => "a list".to_owned(),
+        "a map" => "an object".to_owned(),
+        "unit" => "null".to_owned(),
+        "string or map" => "a string or an object".to_owned(),
+        _ if is(&["a tuple of size "]) => format!("a list of {}", &expected["a tuple of size ".len()..]),
+        _ if is(&["struct ", "tuple struct ", "struct variant ", "tuple variant "]) => match length() {
+            Some(length) => format!("a list of {length}"),
+            None if expected.starts_with("tuple") => "a list".to_owned(),
+            None => "an object".to_owned(),
+        },
+        _ if is(&["unit struct ", "unit variant "]) => "null".to_owned(),
+        _ if is(&["enum "]) => "a word, or an object with one key".to_owned(),
+        _ if is(&["newtype struct ", "newtype variant "]) => "another value".to_owned(),
+        other => other.to_owned(),
     }
 }
 
@@ -47,6 +64,40 @@ mod tests {
             Ok(_) => panic!("{text} is read"),
             Err(error) => json_message(&error),
         }
+    }
+
+    #[derive(serde::Deserialize, Debug)]
+    struct Call {
+        #[serde(rename = "name")]
+        _name: String,
+    }
+
+    #[derive(serde::Deserialize, Debug)]
+    struct Pair(#[allow(dead_code, reason = "it is never read")] i64, #[allow(dead_code, reason = "as above")] i64);
+
+    #[derive(serde::Deserialize, Debug)]
+    #[serde(rename_all = "lowercase")]
+    enum Way {
+        Up,
+    }
+
+    #[derive(serde::Deserialize, Debug)]
+    #[serde(untagged)]
+    enum Either {
+        Flag(#[allow(dead_code, reason = "it is never read")] bool),
+    }
+
+    #[test]
+    fn no_name_of_a_struct_or_enum_is_told() {
+        assert_eq!(message_for::<Call>("1"), "invalid type: integer `1`, expected an object");
+        assert_eq!(message_for::<Call>("{}"), "missing field `name`");
+        assert_eq!(message_for::<Pair>("{}"), "invalid type: map, expected a list");
+        assert_eq!(message_for::<Pair>("[1]"), "invalid length 1, expected a list of 2");
+        assert_eq!(message_for::<Pair>("[1, true]"), "invalid type: boolean `true`, expected a whole number");
+        assert_eq!(message_for::<Way>("\"down\""), "unknown word `down`, expected `up`");
+        assert_eq!(message_for::<Way>("[]"), "invalid type: sequence, expected a word, or an object with one key");
+        assert_eq!(message_for::<Either>("3"), "this is nothing that may stand here");
+        assert_eq!(message_for::<bool>("3"), "invalid type: integer `3`, expected true or false");
     }
 
     #[test]

@@ -15,7 +15,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
 use thiserror::Error;
-use typelift_model::{Atom, GroundAtom, Hierarchy, ParseConfig, State, Symbol, TypeId, Unknown, check_name};
+use typelift_model::{
+    Atom, GroundAtom, Hierarchy, MOST_PARAMETERS, ParseConfig, State, Symbol, TypeId, Unknown, check_name,
+};
 
 use crate::{Entity, Relation, Scene, Snapshot, Value};
 
@@ -60,6 +62,14 @@ pub enum ParseErrorKind {
         first: usize,
         /// The other.
         second: usize,
+    },
+    /// A predicate with more arguments than one may have.
+    #[error("the predicate `{predicate}` is used with {arity} arguments, and may have {MOST_PARAMETERS}")]
+    TooManyArguments {
+        /// The predicate.
+        predicate: Symbol,
+        /// How many it has here.
+        arity: usize,
     },
     /// A name that cannot stand in an atom.
     #[error("{0}")]
@@ -319,6 +329,10 @@ impl Parser {
         let error = |kind| ParseError { entity: entity.map(|e| e.id.clone()), kind };
         let Some(known) = self.sources.get(predicate) else {
             check_name(predicate.as_str()).map_err(|e| error(ParseErrorKind::Name(e.to_string())))?;
+            // A model with such a predicate could not be read again.
+            if arity > MOST_PARAMETERS {
+                return Err(error(ParseErrorKind::TooManyArguments { predicate: predicate.clone(), arity }));
+            }
             self.sources.insert(predicate.clone(), PredicateSource { kind, name: name.clone(), arity });
             return Ok(());
         };
@@ -396,6 +410,17 @@ mod tests {
         ] {
             assert_eq!(symbolic(atoms, unknown).expect_err(message), message);
         }
+    }
+
+    #[test]
+    fn a_predicate_has_no_more_arguments_than_a_model_may_have() {
+        let scene_with = |arguments: usize| {
+            let atom = format!("near({})", vec!["p"; arguments].join(","));
+            scene(&format!(r#"{{"objects":{{"p":"plate"}},"atoms":["{atom}"]}}"#))
+        };
+        assert!(parser().parse(&scene_with(MOST_PARAMETERS)).is_ok());
+        let error = parser().parse(&scene_with(MOST_PARAMETERS + 1)).expect_err("one too many");
+        assert_eq!(error.to_string(), "the predicate `near` is used with 257 arguments, and may have 256");
     }
 
     #[test]

@@ -100,11 +100,13 @@ pub(crate) fn write_new_file(path: &Path, bytes: &[u8]) -> io::Result<()> {
     done
 }
 
-/// A new file in the folder of `target`.
+/// A new file in the folder of `target`. It is locked as long as it is written, which tells it from what a program that was
+/// killed left there; that is removed.
 fn create_beside(target: &Path) -> io::Result<(PathBuf, File)> {
     let Some(name) = target.file_name() else {
         return Err(io::Error::other("this names no file"));
     };
+    remove_temporaries(target.parent().unwrap_or(Path::new("")), |of| *of == *name.to_string_lossy());
     let mut attempt = 0_u32;
     loop {
         let mut hidden = std::ffi::OsString::from(".");
@@ -112,11 +114,47 @@ fn create_beside(target: &Path) -> io::Result<(PathBuf, File)> {
         hidden.push(format!(".{}-{attempt}.tmp", std::process::id()));
         let path = target.with_file_name(hidden);
         match OpenOptions::new().write(true).create_new(true).open(&path) {
-            Ok(file) => return Ok((path, file)),
+            Ok(file) => {
+                // Not every file system knows locks; where there are none, nothing is taken for left behind.
+                let _ = file.lock();
+                // Somebody may have taken it for left behind before it was locked.
+                if path.exists() {
+                    return Ok((path, file));
+                }
+                attempt += 1;
+            }
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists && attempt < 1000 => attempt += 1,
             Err(error) => return Err(error),
         }
     }
+}
+
+/// Removes what programs that were killed while they wrote files of a folder left there: `.table.csv.123-0.tmp`. What is
+/// being written stays. If it fails they stay, which does no harm. It looks at every name in the folder.
+pub fn remove_left_behind(folder: &Path) {
+    remove_temporaries(folder, |_| true);
+}
+
+/// Removes what is left behind of files whose names are wanted.
+fn remove_temporaries(folder: &Path, wanted: impl Fn(&str) -> bool) {
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        if !temporary_of(&entry.file_name().to_string_lossy()).is_some_and(&wanted) {
+            continue;
+        }
+        let Ok(file) = OpenOptions::new().write(true).open(entry.path()) else { continue };
+        if file.try_lock().is_ok() {
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
+/// The name of the file that a temporary file of this name stands for.
+fn temporary_of(name: &str) -> Option<&str> {
+    let (of, number) = name.strip_prefix('.')?.strip_suffix(".tmp")?.rsplit_once('.')?;
+    let (process, attempt) = number.split_once('-')?;
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    (is_number(process) && is_number(attempt)).then_some(of)
 }
 
 #[cfg(test)]
@@ -153,6 +191,26 @@ mod tests {
         assert_eq!(read_text(&path).as_deref(), Ok("made"));
         write_file(Path::new("/dev/null"), b"gone").expect("written");
         assert!(!fs::metadata("/dev/null").expect("there").is_file());
+    }
+
+    #[test]
+    fn what_a_killed_program_left_is_removed_and_nothing_else() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = |name: &str| folder.path().join(name);
+        let others = [".out.7.tmp", ".out.7-.tmp", ".other.7-0.tmp", "out.7-0.tmp", ".out.7-0.tmp.bak"];
+        for name in [".out.7-0.tmp", ".out.8-12.tmp"].iter().chain(&others) {
+            fs::write(path(name), "half").expect("written");
+        }
+        let being_written = File::create(path(".out.9-0.tmp")).expect("made");
+        being_written.lock().expect("locked");
+        write_file(&path("out"), b"whole").expect("written");
+        let left = |names: &[&str]| names.iter().filter(|name| path(name).exists()).count();
+        assert_eq!(
+            (left(&[".out.7-0.tmp", ".out.8-12.tmp"]), left(&[".out.9-0.tmp"]), left(&others)),
+            (0, 1, others.len())
+        );
+        remove_left_behind(folder.path());
+        assert_eq!((left(&[".out.9-0.tmp"]), left(&others)), (1, others.len() - 1));
     }
 
     #[test]

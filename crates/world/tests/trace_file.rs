@@ -60,7 +60,7 @@ fn what_an_agent_meant_and_how_it_judged_is_read() {
     let error = refused(&[HEADER, STATE, &MEANT.replace("timed-out", "late"), STATE]);
     assert_eq!(
         error,
-        "a.jsonl:3:96: unknown variant `late`, expected one of `as-expected`, `nothing`, `partly`, `otherwise`, \
+        "a.jsonl:3:96: unknown word `late`, expected one of `as-expected`, `nothing`, `partly`, `otherwise`, \
          `refused`, `timed-out`"
     );
 }

@@ -174,6 +174,40 @@ fn memory_stays_at_its_limit() {
     }
 }
 
+/// However much a child writes without an end of line, and however long a plan is.
+#[cfg(target_os = "linux")]
+#[test]
+fn what_children_write_is_not_held_whole() {
+    let folder = Folder::kitchen();
+    let flood = "head -c 150000000 /dev/zero | tr '\\0' x";
+    folder.write("environment.sh", format!("{flood} >&2; exit 3"));
+    folder.write("talks.sh", format!("{flood} >&2; exit 7"));
+    folder.write("long.sh", "yes '(pick-station-food agent_1 lettuce_1 counter_1)' | head -c 40000000 > $3");
+    folder.write("short.sh", "yes '(pick-station-food agent_1 lettuce_1 counter_1)' | head -c 9999990 > $3");
+    let planner = |name: &str| {
+        format!(
+            "plan kitchen.json K/tasks/T1.1.json --planner 'sh {} {{domain}} {{problem}} {{plan}}'",
+            path(&folder, name)
+        )
+    };
+    let (at_rest, _) = peak(&folder, "plan kitchen.json K/tasks/T1.1.json");
+    for (command, expected) in [
+        ("run kitchen.json K/tasks/T1.1.json --env 'sh environment.sh'".to_owned(), 35),
+        (planner("talks.sh"), 38),
+        (planner("long.sh"), 39),
+        (planner("short.sh") + " --memory-limit 100", 22),
+    ] {
+        let (peak, code) = peak(&folder, &command);
+        assert_eq!(code, Some(expected), "{command}");
+        assert!(peak < at_rest + 60, "{command}: {peak} MB, and {at_rest} MB at rest");
+    }
+}
+
+#[cfg(target_os = "linux")]
+fn path(folder: &Folder, name: &str) -> String {
+    folder.path(name).display().to_string()
+}
+
 /// An environment in which all lamps are dark until something is done, and two are lit from then on.
 #[cfg(target_os = "linux")]
 fn two_lamps(folder: &Folder) {

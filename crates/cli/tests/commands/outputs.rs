@@ -160,6 +160,37 @@ fn what_is_read_is_not_written_over() {
 }
 
 #[test]
+fn a_plan_that_nobody_named_replaces_another_with_a_word() {
+    let folder = Folder::kitchen();
+    folder.run("export kitchen.json K/tasks/T1.1.json -o P").succeeds();
+    let plan = "plan P/domain.pddl P/problem.pddl";
+    let said = |command: &str| {
+        let ended = folder.run(command);
+        ended.succeeds();
+        ended.err
+    };
+    assert_eq!(said(plan), "");
+    let note = |files: &str| format!("note: {files} was there already, and is replaced; -o writes elsewhere\n");
+    assert_eq!(said(plan), note("sas_plan"));
+    assert_eq!(said(&format!("{plan} --json")), note("sas_plan"));
+    assert_eq!(said(&format!("{plan} -q")), "");
+    assert_eq!(said(&format!("{plan} --plans 2")), "");
+    folder.write("sas_plan.3", "another's");
+    assert_eq!(said(&format!("{plan} --plans 2")), note("sas_plan.1 (and 1 more)"));
+    // What is named is to be written.
+    assert_eq!(said(&format!("{plan} -o sas_plan")), "");
+}
+
+#[test]
+fn what_a_killed_program_left_beside_a_file_goes_with_the_next_one() {
+    let folder = Folder::kitchen();
+    folder.write(".kitchen.json.4000000-0.tmp", "half a model");
+    folder.write(".mine.tmp", "somebody's");
+    folder.run("learn K/demos --types K/types.pddl -o kitchen.json").succeeds();
+    assert_eq!(folder.names(), [".mine.tmp", "K", "kitchen.json"]);
+}
+
+#[test]
 fn what_is_shown_is_there_for_programs() {
     let folder = Folder::kitchen();
     let shown = |options: &str| -> Vec<serde_json::Value> {
