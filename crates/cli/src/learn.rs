@@ -9,7 +9,7 @@ use typelift::learn::{self, Actor, LearnError, Options, evidence_of, learn_evide
 use typelift::model::{
     ClusterKey, LearnedModel, LiftedAtom, Observations, RefusedMerges, SourceId, Symbol, Unexplained,
 };
-use typelift::words::count;
+use typelift::words::{count, places};
 use typelift::world::{
     Dataset, ObjectTypes, Repeated, TrajectoryContext, Unlisted, demonstrations_at, read_dataset, write_file,
 };
@@ -355,8 +355,8 @@ fn print_counts(out: &mut impl Write, model: &LearnedModel, report: &learn::Repo
             Unexplained::NotExecuted => "something changed, though the action was not executed",
             Unexplained::TimedOut => "the action was not finished in time",
         };
-        let places: Vec<String> = witnesses.iter().map(|w| format!("{} step {}", w.file, w.step)).collect();
-        writeln!(out, "{} unexplained, {reason}: {}", count(*times, "transition"), places.join(", "))?;
+        let places = places(witnesses, *times);
+        writeln!(out, "{} unexplained, {reason}: {places}", count(*times, "transition"))?;
     }
     Ok(())
 }

@@ -27,6 +27,7 @@ mod quantities;
 mod run;
 mod shell;
 mod show;
+mod show_vocabulary;
 mod style;
 mod validate;
 mod watchdog;

@@ -11,6 +11,7 @@ use crate::exit::Exit;
 use crate::failure::{Failure, or_one_of};
 use crate::files::{ModelInput, read_model_input};
 use crate::learn::refused_merges;
+use crate::show_vocabulary::{list_predicates, list_types};
 use crate::style::described;
 
 /// Show what a model holds, and what each action rests on
@@ -18,6 +19,7 @@ use crate::style::described;
 #[command(after_help = "Examples:
   typelift show kitchen.json
   typelift show kitchen.json --action USE-cutboard-food
+  typelift show kitchen.json --predicates
   typelift show kitchen.json --pddl > kitchen.pddl")]
 pub(crate) struct Show {
     /// The model, as `learn` wrote it
@@ -28,10 +30,16 @@ pub(crate) struct Show {
     /// List the traces that it was learned from, each with its id
     #[arg(long, conflicts_with_all = ["action", "pddl"])]
     sources: bool,
+    /// List the predicates, each with the types of its arguments: what a goal may say
+    #[arg(long, conflicts_with_all = ["action", "sources", "pddl"])]
+    predicates: bool,
+    /// List the types, each under what it is a kind of
+    #[arg(long, conflicts_with_all = ["action", "sources", "pddl", "predicates"])]
+    types: bool,
     /// Print the model as a PDDL domain
     #[arg(long)]
     pddl: bool,
-    /// Print the same as a JSON list: a description of each action and axiom, or each trace with --sources
+    /// Print the same as a JSON list: a description of each action and axiom, or each trace, predicate or type
     #[arg(long, conflicts_with = "pddl")]
     json: bool,
 }
@@ -49,6 +57,12 @@ impl Show {
             let options = ExportOptions { domain, problem: Symbol::default(), level: Level::Adl };
             write!(out, "{}", export(&model, None, &options)?.domain)?;
             return Ok(Exit::Success);
+        }
+        if self.predicates {
+            return list_predicates(&mut out, &model, self.json);
+        }
+        if self.types {
+            return list_types(&mut out, &model.hierarchy, self.json);
         }
         if self.sources {
             return self.list_sources(&mut out, &evidence);

@@ -87,7 +87,8 @@ impl Goal {
                 }
                 Some(_) => {}
                 None => {
-                    let near = nearest(atom.predicate.as_str(), predicates.keys()).cloned();
+                    let near = nearest(atom.predicate.as_str(), predicates.keys());
+                    let near = near.or_else(|| made_from(atom, predicates)).cloned();
                     return Err(GoalError::UnknownPredicate { atom: atom.clone(), near });
                 }
             }
@@ -113,6 +114,17 @@ impl Goal {
     pub fn mentions(&self, object: &Symbol) -> bool {
         self.literals().any(|(atom, _)| atom.args.contains(object))
     }
+}
+
+/// A predicate that is made from what a snapshot calls so: the relation `holding` gives `holding_holds`, the attribute
+/// `cut` gives `cut_Fresh`. One with as many arguments, if there is one.
+fn made_from<'a>(atom: &GroundAtom, predicates: &'a ArgumentTypes) -> Option<&'a Symbol> {
+    let is_made_from = |name: &Symbol| {
+        let rest = name.as_str().strip_prefix(atom.predicate.as_str());
+        rest.is_some_and(|rest| rest.starts_with('_'))
+    };
+    let made = predicates.iter().filter(|(name, _)| is_made_from(name));
+    made.min_by_key(|(_, types)| types.len() != atom.arity()).map(|(name, _)| name)
 }
 
 impl From<Vec<GroundAtom>> for Goal {

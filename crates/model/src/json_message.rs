@@ -95,7 +95,8 @@ mod tests {
         assert_eq!(message_for::<Pair>("[1]"), "invalid length 1, expected a list of 2");
         assert_eq!(message_for::<Pair>("[1, true]"), "invalid type: boolean `true`, expected a whole number");
         assert_eq!(message_for::<Way>("\"down\""), "unknown word `down`, expected `up`");
-        assert_eq!(message_for::<Way>("[]"), "invalid type: sequence, expected a word, or an object with one key");
+        let error = serde_json::from_value::<Way>(serde_json::json!([])).expect_err("a list");
+        assert_eq!(json_message(&error), "invalid type: sequence, expected a string or an object");
         assert_eq!(message_for::<Either>("3"), "this is nothing that may stand here");
         assert_eq!(message_for::<bool>("3"), "invalid type: integer `3`, expected true or false");
     }

@@ -8,7 +8,7 @@ use typelift_model::{
     Support, Symbol, Term, describe_replacements, schema_name,
 };
 
-use crate::text::count;
+use crate::text::{count, places};
 
 /// A labelled row of a description.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -85,10 +85,9 @@ impl Description {
         }
         let Some(total) = evidence.map(Evidence::total) else { return };
         for support in support {
-            let witnesses = total.clusters.get(&*support.cluster).map(|c| &c.witnesses);
-            let places = witnesses.into_iter().flatten().map(|w| format!("{} step {}", w.file, w.step));
-            let places: Vec<String> = places.collect();
-            self.row("seen", [format!("{}: {}", individual_name(support, model), places.join(", "))]);
+            let cluster = total.clusters.get(&*support.cluster);
+            let places = cluster.map(|cluster| places(&cluster.witnesses, cluster.count)).unwrap_or_default();
+            self.row("seen", [format!("{}: {places}", individual_name(support, model))]);
         }
     }
 }

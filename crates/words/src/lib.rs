@@ -28,5 +28,5 @@ pub use action::{Description, Row, describe_action, describe_axiom, individual_n
 pub use answer::{AnswerView, ending, why_none};
 pub use event::line;
 pub use plan::{PlanView, StepView, imagined_note, numbered_steps, plan_size};
-pub use text::{Role, Span, Text, count};
+pub use text::{Role, Span, Text, count, places};
 pub use wire::{DoneView, WireCommand, WireEvent, wire_command, wire_event};

@@ -4,6 +4,7 @@
 use std::fmt;
 
 use serde::Serialize;
+use typelift_model::Witness;
 
 /// What a part of a text is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
@@ -68,6 +69,15 @@ impl Text {
 impl fmt::Display for Text {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.0.iter().try_for_each(|span| f.write_str(&span.text))
+    }
+}
+
+/// The places where something was observed; of `times` observations perhaps not all are known: `a.jsonl step 3 and 7 more`.
+pub fn places<'a>(witnesses: impl IntoIterator<Item = &'a Witness>, times: u64) -> String {
+    let places: Vec<String> = witnesses.into_iter().map(|w| format!("{} step {}", w.file, w.step)).collect();
+    match times.saturating_sub(places.len() as u64) {
+        0 => places.join(", "),
+        more => format!("{} and {more} more", places.join(", ")),
     }
 }
 

@@ -11,6 +11,7 @@ fn goals_that_are_wrong() {
     for (title, goal) in [
         ("a predicate that is nearly right", "chop_state_Choped(lettuce_1)"),
         ("an unknown predicate", "happy(lettuce_1)"),
+        ("a relation by its name in a snapshot", "holding(agent_1,lettuce_1)"),
         ("a wrong arity", "chop_state_Chopped(lettuce_1,plate_1)"),
         ("another wrong arity", "content_holds(plate_1)"),
         ("an object that is nearly right", "chop_state_Chopped(letuce_1)"),

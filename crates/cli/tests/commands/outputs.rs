@@ -205,4 +205,11 @@ fn what_is_shown_is_there_for_programs() {
     let sources = shown("--sources");
     assert_eq!(sources.iter().filter_map(|source| source["transitions"].as_u64()).sum::<u64>(), 68);
     assert_eq!(folder.run("show kitchen.json --json --pddl").code, 36);
+    let predicates = shown("--predicates");
+    assert!(
+        predicates.contains(&serde_json::json!({"name": "holding_holds", "types": ["agent", "food"]})),
+        "{predicates:?}"
+    );
+    let types = shown("--types");
+    assert!(types.contains(&serde_json::json!({"name": "lettuce", "parents": ["vegetable"]})), "{types:?}");
 }

@@ -1,0 +1,49 @@
+//! `typelift show --predicates` and `--types`: the words that goals and states of a model are made of.
+
+use std::collections::BTreeMap;
+use std::io::Write;
+
+use typelift::model::{ActionModel, Hierarchy, Symbol, TypeId};
+
+use crate::exit::Exit;
+use crate::failure::Failure;
+
+/// A predicate a line, as `holding_holds(agent, item)`, in the order of their names.
+pub(crate) fn list_predicates(out: &mut impl Write, model: &ActionModel, json: bool) -> Result<Exit, Failure> {
+    let name = |ty: &TypeId| model.hierarchy.name(*ty).as_str();
+    let named = |types: &[TypeId]| types.iter().map(name).collect::<Vec<_>>();
+    if json {
+        let listed =
+            model.predicates.iter().map(|(name, types)| serde_json::json!({"name": name, "types": named(types)}));
+        let listed: Vec<serde_json::Value> = listed.collect();
+        writeln!(out, "{}", serde_json::to_string_pretty(&listed).unwrap_or_default())?;
+        return Ok(Exit::Success);
+    }
+    for (predicate, types) in &model.predicates {
+        writeln!(out, "{predicate}({})", named(types).join(", "))?;
+    }
+    Ok(Exit::Success)
+}
+
+/// A type a line, indented under the one that it is a kind of.
+pub(crate) fn list_types(out: &mut impl Write, hierarchy: &Hierarchy, json: bool) -> Result<Exit, Failure> {
+    if json {
+        let mut parents: BTreeMap<&Symbol, Vec<&Symbol>> =
+            hierarchy.types().map(|ty| (hierarchy.name(ty), Vec::new())).collect();
+        for (child, parent) in hierarchy.edges() {
+            parents.entry(child).or_default().push(parent);
+        }
+        let listed = parents.iter().map(|(name, parents)| serde_json::json!({"name": name, "parents": parents}));
+        let listed: Vec<serde_json::Value> = listed.collect();
+        writeln!(out, "{}", serde_json::to_string_pretty(&listed).unwrap_or_default())?;
+        return Ok(Exit::Success);
+    }
+    // What is still to be listed, and how deep it stands.
+    let mut left = vec![(hierarchy.root(), 0)];
+    while let Some((ty, depth)) = left.pop() {
+        writeln!(out, "{}{}", "  ".repeat(depth), hierarchy.name(ty))?;
+        let children: Vec<_> = hierarchy.children(ty).map(|child| (child, depth + 1)).collect();
+        left.extend(children.into_iter().rev());
+    }
+    Ok(Exit::Success)
+}
