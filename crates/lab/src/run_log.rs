@@ -292,9 +292,9 @@ mod tests {
         let path = folder.path().join(FILE_NAME);
         let good = fs::read_to_string(&path).expect("a log");
         for (damaged, message) in [
-            (good.replace("\"run\":2", "\"run\":"), "2: this is not a run: expected value"),
+            (good.replace("\"run\":2", "\"run\":"), "2: this is not a run: this is not JSON: expected value"),
             (good.replace("\"run\":1", "\"run\":2"), "3: this run is here twice"),
-            (format!("{good}\0\0\n"), "4: this is not a run: expected value"),
+            (format!("{good}\0\0\n"), "4: this is not a run: this is not JSON: expected value"),
             ("{}\n".to_owned(), "1: this is not the header of a run log"),
         ] {
             fs::write(&path, damaged).expect("written");
