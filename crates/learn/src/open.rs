@@ -12,7 +12,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use typelift_model::{AtomKind, GroundAtom, Hierarchy, OpenObservations, State, Symbol, Unexplained, Unknown, View};
+use typelift_model::{
+    AtomKind, GroundAtom, Hierarchy, OpenObservations, Pattern, Slot, State, Symbol, Unexplained, Unknown, View,
+};
 
 /// How much two states show of what may have changed between them, given some of what it is about; `None` if all of it.
 /// The kinds of atoms that they list are added to those of the evidence.
@@ -34,8 +36,7 @@ pub(crate) fn view<'a>(
         match &state.unknown {
             Unknown::AllBut(absent) => listings.push(state.atoms.iter().chain(absent).collect()),
             Unknown::Matching(patterns) => {
-                let anywhere = |pattern: &typelift_model::Pattern<Symbol>| pattern.names().next().is_none();
-                if patterns.iter().any(|p| anywhere(p) || p.names().any(|name| near.contains(name))) {
+                if patterns.iter().any(|pattern| may_be_about(pattern, &near)) {
                     return Err(Unexplained::PartlyObserved);
                 }
             }
@@ -70,6 +71,16 @@ pub(crate) fn view<'a>(
         true => Ok(Some(View { known: known.into_keys().collect(), objects })),
         false => Err(Unexplained::PartlyObserved),
     }
+}
+
+/// Whether a pattern means an atom about one of these, or about nothing. A `*` stands for any entity, whatever else the
+/// pattern names: `held(g,*)` means `held(g,a)` too.
+fn may_be_about(pattern: &Pattern<Symbol>, objects: &BTreeSet<&Symbol>) -> bool {
+    let stands_for_one = |slot: &Slot<Symbol>| match slot {
+        Slot::Any => true,
+        Slot::Is(name) => objects.contains(name),
+    };
+    pattern.args.is_empty() || pattern.args.iter().any(stands_for_one)
 }
 
 /// Whether an atom is about one of these, or about nothing.

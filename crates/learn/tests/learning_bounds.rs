@@ -84,10 +84,15 @@ fn what_depends_on_the_unknown_is_reported() {
     let mut after = state.clone();
     after.atoms.insert(GroundAtom::parse("seen(o0000)").expect("an atom"));
     let unknown = |atom: &str| Pattern::parse(atom).expect("a pattern");
-    state.unknown = Unknown::Matching([unknown("open(o0001)")].into());
-    assert_eq!(observed(&state, &after).clusters.len(), 1, "the unknown one has no part in it");
-    state.unknown = Unknown::Matching([unknown("open(o0001)"), unknown("open(o0000)")].into());
-    let evidence = observed(&state, &after);
-    assert!(evidence.clusters.is_empty());
-    assert_eq!(evidence.unexplained.keys().collect::<Vec<_>>(), [&Unexplained::PartlyObserved]);
+    for elsewhere in ["open(o0001)", "on(o0001,o0001)"] {
+        state.unknown = Unknown::Matching([unknown(elsewhere)].into());
+        assert_eq!(observed(&state, &after).clusters.len(), 1, "{elsewhere} has no part in it");
+    }
+    // A `*` may be what has been seen, wherever it stands, and whatever stands beside it.
+    for near in ["open(o0000)", "on(o0001,o0000)", "open(*)", "on(o0001,*)", "on(*,o0001)", "on(*,*)", "dark"] {
+        state.unknown = Unknown::Matching([unknown("open(o0001)"), unknown(near)].into());
+        let evidence = observed(&state, &after);
+        assert!(evidence.clusters.is_empty(), "{near}");
+        assert_eq!(evidence.unexplained.keys().collect::<Vec<_>>(), [&Unexplained::PartlyObserved], "{near}");
+    }
 }

@@ -125,12 +125,20 @@ fn what_a_state_calls_unknown_is_not_taken_for_false() {
     folder.write("known.jsonl", trace(""));
     folder.write("elsewhere.jsonl", trace(r#""held(g,b)""#));
     folder.write("near.jsonl", trace(r#""held(h,*)""#));
+    // Whether `g` still holds `a` is hidden as well.
+    folder.write("any.jsonl", trace(r#""held(g,*)""#));
+    folder.write("every.jsonl", trace(r#""held(*,b)""#));
     let show = |name: &str| {
         folder.run(&format!("learn {name}.jsonl --types types.json -o m.json -q")).succeeds();
         folder.run("show m.json").out
     };
     assert_eq!(show("elsewhere"), show("known"));
-    insta::assert_snapshot!("learn-near", folder.run("learn near.jsonl --types types.json -o m.json"));
+    let near = folder.run("learn near.jsonl --types types.json -o m.json");
+    insta::assert_snapshot!("learn-near", near);
+    for name in ["any", "every"] {
+        let hidden = folder.run(&format!("learn {name}.jsonl --types types.json -o m.json"));
+        assert_eq!(hidden.out, near.out.replace("near.jsonl", &format!("{name}.jsonl")));
+    }
 }
 
 #[test]
