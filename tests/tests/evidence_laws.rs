@@ -132,6 +132,21 @@ proptest! {
 }
 
 #[test]
+fn nothing_can_be_added_to_anything_and_anything_to_nothing() {
+    let dataset = shown();
+    let by_source = of(&dataset, 0..3);
+    let mut compact = by_source.clone();
+    compact.compact();
+    let unnamed = Evidence::of_total([].into(), by_source.total().into_owned());
+    for evidence in [by_source, compact, unnamed.clone()] {
+        let (mut left, mut right) = (evidence.clone(), Evidence::default());
+        assert_eq!((left.merge(&Evidence::default()), right.merge(&evidence)), (Ok(Vec::new()), Ok(Vec::new())));
+        assert_eq!((&left, &right), (&evidence, &evidence));
+    }
+    assert_eq!(of(&dataset, 3..4).merge(&unnamed), Err(MergeError::UnknownSources));
+}
+
+#[test]
 fn compact_evidence_takes_nothing_twice_and_nothing_out() {
     let dataset = shown();
     let ids = ids(&dataset);

@@ -136,7 +136,8 @@ impl Evidence {
         }
     }
 
-    /// Adds everything that another holds, what both hold once. Gives the sources that both held.
+    /// Adds everything that another holds, what both hold once. Gives the sources that both held. Where one holds nothing,
+    /// the sum is what the other holds, whether or not that names all of its sources; it is compact if either is.
     ///
     /// # Errors
     /// [`MergeError`]; then nothing is added.
@@ -159,7 +160,8 @@ impl Evidence {
             }
             return Ok(shared);
         }
-        if !self.names_all_sources() || !other.names_all_sources() {
+        let all_are_named = self.names_all_sources() && other.names_all_sources();
+        if !all_are_named && !self.is_empty() && !other.is_empty() {
             return Err(MergeError::UnknownSources);
         }
         if !shared.is_empty() {
@@ -197,6 +199,11 @@ impl Evidence {
         self.parts()
             .into_iter()
             .flat_map(|(id, part)| part.predicates.iter().map(move |(predicate, types)| (id, predicate, types.len())))
+    }
+
+    /// Whether there is neither a source nor anything observed.
+    fn is_empty(&self) -> bool {
+        self.sources.is_empty() && *self.sum() == Observations::default()
     }
 
     /// Whether every transition is of a source that is named.

@@ -109,4 +109,12 @@ fn models_of_the_format_before_are_read() {
     transcript.add("show", &folder.run("show old.json"));
     transcript.add("as a domain", &folder.run("show old.json --pddl"));
     insta::assert_snapshot!(transcript.0);
+    // Nothing is added, so nothing can count twice: the model is learned again, and written in the format of today.
+    for (option, name) in [("", "new.json"), ("--compact", "compact.json")] {
+        folder.run(&format!("learn --into old.json {option} -o {name} -q")).succeeds();
+        let new = folder.read(name);
+        assert!(new.contains("\"format\": \"model/2\""), "{new}");
+        folder.run(&format!("learn --into {name} -q")).succeeds();
+        assert_eq!(folder.read(name), new);
+    }
 }
