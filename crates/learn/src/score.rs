@@ -17,7 +17,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use typelift_model::{Cluster, Hierarchy, LiftedAtom, NegativeKey, Observations, PreStates, Support, Symbol, TypeId};
+use typelift_model::{Cluster, Hierarchy, LiftedAtom, Observations, PreStates, Support, Symbol, TypeId};
 
 use crate::draft::Draft;
 
@@ -51,7 +51,6 @@ pub(crate) struct Failures<'e> {
 
 /// Failures over entities of the same types.
 struct Failure<'e> {
-    key: &'e NegativeKey,
     types: Vec<TypeId>,
     seen: &'e Cluster,
 }
@@ -63,32 +62,37 @@ impl<'e> Failures<'e> {
             // A type that the hierarchy does not have fits no parameter.
             let types = key.types.iter().map(|name| hierarchy.id(name.as_str())).collect::<Option<_>>();
             let Some(types) = types else { continue };
-            by_call.entry((&key.action, key.call.as_slice())).or_default().push(Failure { key, types, seen });
+            by_call.entry((&key.action, key.call.as_slice())).or_default().push(Failure { types, seen });
         }
         Self { by_call }
     }
 
-    /// Those that the action wrongly allows, with how often each was seen.
-    pub(crate) fn allowed_by<'f>(
-        &'f self,
-        action: &'f Draft,
-        hierarchy: &'f Hierarchy,
-    ) -> impl Iterator<Item = (&'e NegativeKey, u64)> + 'f {
-        let of_call = self.by_call.get(&(&action.action, action.call.as_slice()));
-        let times = |failure: &Failure<'e>| (failure.key, failure.times_allowed(action, hierarchy));
-        of_call.into_iter().flatten().map(times).filter(|(_, times)| *times > 0)
+    /// How many of them these actions wrongly allow; one that several allow counts once.
+    pub(crate) fn allowed_by(&self, actions: &[Draft], hierarchy: &Hierarchy) -> u64 {
+        let mut by_call: BTreeMap<_, Vec<&Draft>> = BTreeMap::new();
+        for action in actions {
+            by_call.entry((&action.action, action.call.as_slice())).or_default().push(action);
+        }
+        let of_call = |(call, actions): (_, &Vec<&Draft>)| -> u64 {
+            let failures = self.by_call.get(call).into_iter().flatten();
+            failures.map(|failure| failure.times_allowed(actions, hierarchy)).sum()
+        };
+        by_call.iter().map(of_call).sum()
     }
 }
 
 impl Failure<'_> {
-    /// In how many the action's preconditions held. Beyond the bound of pre-states kept apart, the most that the counts
-    /// allow.
-    fn times_allowed(&self, action: &Draft, hierarchy: &Hierarchy) -> u64 {
+    /// In how many the preconditions of one of these actions held. Beyond the bound of pre-states kept apart, the most that
+    /// the counts allow to one action in one way.
+    fn times_allowed(&self, actions: &[&Draft], hierarchy: &Hierarchy) -> u64 {
         let moved = |atoms: &BTreeSet<LiftedAtom>, way: &[u32]| -> BTreeSet<LiftedAtom> {
             atoms.iter().map(|atom| atom.renamed(way)).collect()
         };
-        let ways = self.ways(action, hierarchy);
-        let ways: Vec<_> = ways.iter().map(|w| (moved(&action.preconditions, w), moved(&action.adds, w))).collect();
+        let mut ways = Vec::new();
+        for action in actions {
+            let of_action = self.ways(action, hierarchy);
+            ways.extend(of_action.iter().map(|way| (moved(&action.preconditions, way), moved(&action.adds, way))));
+        }
         match &self.seen.states {
             PreStates::Exact(states) => {
                 let allowed = |state: &BTreeSet<LiftedAtom>| {
@@ -140,7 +144,7 @@ pub(crate) fn score_action(
         score.explained += explained;
         score.missed += total - explained;
     }
-    score.wrongly_allowed = failures.allowed_by(action, hierarchy).map(|(_, times)| times).sum();
+    score.wrongly_allowed = failures.allowed_by(std::slice::from_ref(action), hierarchy);
     score
 }
 

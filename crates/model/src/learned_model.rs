@@ -26,9 +26,9 @@ pub struct LearnedModel {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RefusedMerges {
-    /// How many pairs of actions of the model there are.
+    /// Pairs of actions of the model that could be merged and are not.
     pub pairs: usize,
-    /// How many failures speak against merging them.
+    /// Failures that at least one of these merges would have allowed; each counts once, whichever would have.
     pub failures: u64,
 }
 
