@@ -28,21 +28,27 @@ fn outcome(model: &ActionModel, task: &Task, restrictions: &Restrictions) -> Out
     planner.next_plan(&budget)
 }
 
-/// Bans and exclusions picked by numbers: actions by their place among the ground actions, objects by theirs.
-fn restrictions(model: &ActionModel, task: &Task, bans: &[usize], excluded: &[(usize, usize)]) -> Restrictions {
+/// Bans, calls and exclusions picked by numbers: actions by their place among the ground actions, objects by theirs.
+fn restrictions(
+    model: &ActionModel,
+    task: &Task,
+    bans: &[usize],
+    calls: &[usize],
+    excluded: &[(usize, usize)],
+) -> Restrictions {
     let all: Vec<_> = steps(model, task, &Restrictions::default()).into_iter().collect();
     let objects: Vec<&Symbol> = task.init.objects.keys().collect();
     let mut restrictions = Restrictions::default();
     if all.is_empty() {
         return restrictions;
     }
-    for pick in bans {
+    let picked = |pick: &usize| {
         let (action, chosen) = &all[pick % all.len()];
         let schema = model.action(action.as_str()).expect("an action of the model");
-        restrictions
-            .banned
-            .insert(Ban::of(&schema.instantiate(chosen, &task.init, &model.hierarchy).expect("it fits")));
-    }
+        schema.instantiate(chosen, &task.init, &model.hierarchy).expect("it fits")
+    };
+    restrictions.banned = bans.iter().map(|pick| Ban::of(&picked(pick))).collect();
+    restrictions.calls = calls.iter().map(|pick| picked(pick).call).collect();
     for (object, call) in excluded {
         // One number past the calls is all of them.
         let call = model.actions.get(call % (model.actions.len() + 1)).map(|action| action.call.name.clone());
@@ -88,7 +94,7 @@ fn plans_of_the_kitchen_are_the_same() {
         let Outcome::Solved(plan) = &proposal.outcome else { panic!("{}: no plan", task.name) };
         let model = &proposal.model;
         let mut restrictions =
-            restrictions(model, &asked, &[number * 97, number * 31 + 5], &[(number * 13 + 1, number)]);
+            restrictions(model, &asked, &[number * 97, number * 31 + 5], &[number * 53], &[(number * 13 + 1, number)]);
         restrictions.types = type_exclusions(model, &asked, &[(number * 7, number * 5, number % 2 == 0)]);
         let found = assert_same(model, &asked, &restrictions);
         solved += usize::from(matches!(found, Outcome::Solved(_)));
@@ -96,7 +102,10 @@ fn plans_of_the_kitchen_are_the_same() {
         let step = &plan.steps[number % plan.len()];
         let schema = model.action(step.action.as_str()).expect("an action of the model");
         let action = schema.instantiate(&step.objects, &asked.init, &model.hierarchy).expect("it fits");
-        restrictions.banned.insert(Ban::of(&action));
+        match number % 2 {
+            0 => restrictions.banned.insert(Ban::of(&action)),
+            _ => restrictions.calls.insert(action.call),
+        };
         let found = assert_same(model, &asked, &restrictions);
         assert_ne!(found, Outcome::Solved(plan.clone()), "{}", task.name);
         lost += usize::from(found == Outcome::Unsolvable);
@@ -111,10 +120,11 @@ proptest! {
     fn plans_of_tiny_problems_are_the_same(
         tiny in typelift_model::testing::tiny(2),
         bans in prop::collection::vec(any::<usize>(), 0..4),
+        calls in prop::collection::vec(any::<usize>(), 0..3),
         excluded in prop::collection::vec((any::<usize>(), any::<usize>()), 0..3),
         types in prop::collection::vec(any::<(usize, usize, bool)>(), 0..3),
     ) {
-        let mut restrictions = restrictions(&tiny.model, &tiny.task, &bans, &excluded);
+        let mut restrictions = restrictions(&tiny.model, &tiny.task, &bans, &calls, &excluded);
         restrictions.types = type_exclusions(&tiny.model, &tiny.task, &types);
         assert_same(&tiny.model, &tiny.task, &restrictions);
     }

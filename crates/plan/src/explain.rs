@@ -290,7 +290,10 @@ impl Context<'_> {
             let condition = effect.condition.iter().filter(|l| l.positive && !l.atom.is_equality());
             obstacles.extend(condition.map(|l| &l.atom).find(missing).map(|need| Obstacle::Condition(written(need))));
         }
-        let is_banned = || self.restrictions.banned.iter().any(|ban| ban.call.name == schema.call.name);
+        let is_banned = || {
+            let mut calls = self.restrictions.banned.iter().map(|ban| &ban.call).chain(&self.restrictions.calls);
+            calls.any(|call| call.name == schema.call.name)
+        };
         let may_not_meet = || self.restrictions.types.iter().any(|exclusion| exclusion.concerns(schema));
         if obstacles.is_empty() && (is_banned() || may_not_meet()) {
             obstacles.push(Obstacle::Banned);

@@ -2,8 +2,8 @@
 
 use typelift_model::testing::Tiny;
 use typelift_model::{
-    ActionModel, ActionSchema, Budget, Effect, GroundAtom, Hierarchy, LiftedAtom, LiftedCall, Literal, Parameter,
-    Provenance, State, Task, Term,
+    ActionModel, ActionSchema, Budget, Effect, GroundAction, GroundAtom, Hierarchy, LiftedAtom, LiftedCall, Literal,
+    Parameter, Provenance, State, Task, Term,
 };
 use typelift_plan::{Ban, Exclusion, Options, Outcome, Planner, Restrictions, Strategy};
 
@@ -40,7 +40,16 @@ fn world() -> (ActionModel, Task) {
 #[test]
 fn what_is_banned_is_not_planned_again() {
     let (model, task) = world();
-    for unconditional in [false, true] {
+    // By what it was expected to do, or whatever that was.
+    let by_effect = |restrictions: &mut Restrictions, action: &GroundAction| {
+        restrictions.banned.insert(Ban::of(action));
+    };
+    let by_call = |restrictions: &mut Restrictions, action: &GroundAction| {
+        restrictions.calls.insert(action.call.clone());
+    };
+    for (unconditional, ban) in
+        [(false, by_effect as fn(&mut _, &_)), (true, by_effect), (false, by_call), (true, by_call)]
+    {
         let mut model = model.clone();
         if unconditional {
             model.actions[0].effects.retain(|effect| effect.condition.is_empty());
@@ -54,7 +63,7 @@ fn what_is_banned_is_not_planned_again() {
             let step = &plan.steps[0];
             let action = model.actions[0].instantiate(&step.objects, &task.init, &model.hierarchy).expect("it fits");
             found.push(step.call.to_string());
-            restrictions.banned.insert(Ban::of(&action));
+            ban(&mut restrictions, &action);
             assert!(found.len() < 5, "the same again: {found:?}");
         };
         // A lamp may stand for both parameters: then it is done, since what is added is not deleted.
