@@ -28,3 +28,30 @@ fn a_parameter_of_either_of_two_types_takes_objects_of_both() {
         Err("step 1: c is of type cat, where keep takes one of type room".to_owned())
     );
 }
+
+const WARDS: &str =
+    "(define (domain d) (:types ward bed) (:predicates (in ?b - bed ?w - ward) (made ?b - bed) (open ?w - ward))
+    (:action make :parameters (?b - bed) :effect (made ?b))
+    (:action unlock :parameters (?w - ward)
+      :precondition (forall (?b - bed) (imply (in ?b ?w) (made ?b))) :effect (open ?w)))";
+
+fn in_wards(goal: &str, plan: &str) -> Result<(), String> {
+    let objects = "(:objects w - ward b c - bed) (:init (in b w) (in c w))";
+    verdict(WARDS, &format!("(define (problem p) (:domain d) {objects} (:goal {goal}))"), plan)
+}
+
+#[test]
+fn what_is_missing_is_said_as_the_files_state_it() {
+    assert_eq!(
+        in_wards("(open w)", "(make b) (unlock w)"),
+        Err("step 2: unlock needs (forall (?b - bed) (imply (in ?b ?w) (made ?b))) where ?w is w".to_owned())
+    );
+    let goal = "(or (open w) (forall (?b - bed) (made ?b)))";
+    assert_eq!(in_wards(goal, "(make b)"), Err(format!("the goal {goal} does not hold in the end")));
+    assert_eq!(in_wards(goal, "(make b) (make c)"), Ok(()));
+}
+
+#[test]
+fn the_times_of_a_plan_give_its_order() {
+    assert_eq!(in_wards("(open w)", "2: (unlock w) 0: (make b) [1] 1.5: (make c)"), Ok(()));
+}

@@ -17,9 +17,7 @@ mod validate;
 pub use validate::{Valid, validate};
 
 use thiserror::Error;
-use typelift_model::{
-    ActionModel, GroundAction, GroundAtom, InstantiateError, Plan, State, Step, Symbol, Task, Unknown,
-};
+use typelift_model::{ActionModel, GroundAction, InstantiateError, Plan, State, Step, Symbol, Task, Unknown};
 
 /// Why a plan is not valid. Steps are counted from 1.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -65,16 +63,14 @@ pub enum Invalid {
         found: u32,
     },
     /// A precondition does not hold.
-    #[error("step {step}: {action} needs {}{atom}", if *.positive { "" } else { "not " })]
+    #[error("step {step}: {action} needs {needs}")]
     Precondition {
         /// The step.
         step: usize,
         /// The action.
         action: Symbol,
-        /// The atom.
-        atom: GroundAtom,
-        /// Whether it must hold, or must not.
-        positive: bool,
+        /// What does not hold, in the words of the text that the model was made from.
+        needs: String,
     },
     /// An action that can be used in several ways can be used in none.
     #[error("step {step}: {action} needs {}", .reasons.join("; or "))]
@@ -87,12 +83,10 @@ pub enum Invalid {
         reasons: Vec<String>,
     },
     /// The goal does not hold in the end.
-    #[error("the goal {}{atom} does not hold in the end", if *.positive { "" } else { "not " })]
+    #[error("the goal {part} does not hold in the end")]
     Goal {
-        /// The first goal atom that does not, or does and must not.
-        atom: GroundAtom,
-        /// Whether it must hold.
-        positive: bool,
+        /// The first part of it that does not, in the words of the text that the model was made from.
+        part: String,
     },
 }
 
@@ -107,12 +101,12 @@ pub fn check(model: &ActionModel, task: &Task, plan: &Plan) -> Result<State, Inv
         let action = resolve(model, task, &state, i + 1, step)?;
         if let Some((atom, positive)) = action.unmet(&state).next() {
             let (step, action) = (i + 1, action.schema.clone());
-            return Err(Invalid::Precondition { step, action, atom: atom.clone(), positive: *positive });
+            return Err(Invalid::Precondition { step, action, needs: model.in_words(atom, *positive) });
         }
         advance(model, &action, &mut state);
     }
     match task.goal.literals().find(|&(atom, positive)| state.holds(atom) != positive) {
-        Some((atom, positive)) => Err(Invalid::Goal { atom: atom.clone(), positive }),
+        Some((atom, positive)) => Err(Invalid::Goal { part: model.in_words(atom, positive) }),
         None => Ok(state),
     }
 }
@@ -162,7 +156,8 @@ fn advance(model: &ActionModel, action: &GroundAction, state: &mut State) {
 #[cfg(test)]
 mod tests {
     use typelift_model::{
-        ActionSchema, Cost, Effect, GroundCall, Hierarchy, LiftedAtom, LiftedCall, Literal, Parameter, Provenance, Term,
+        ActionSchema, Cost, Effect, GroundAtom, GroundCall, Hierarchy, LiftedAtom, LiftedCall, Literal, Parameter,
+        Provenance, Term,
     };
 
     use super::*;

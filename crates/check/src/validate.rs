@@ -51,7 +51,7 @@ pub fn validate(model: &ActionModel, task: &Task, lines: &[GroundCall]) -> Resul
         }
     }
     match task.goal.literals().find(|&(atom, positive)| state.holds(atom) != positive) {
-        Some((atom, positive)) => Err((plan, Invalid::Goal { atom: atom.clone(), positive })),
+        Some((atom, positive)) => Err((plan, Invalid::Goal { part: model.in_words(atom, positive) })),
         None => Ok(Valid { plan, state }),
     }
 }
@@ -87,7 +87,7 @@ fn choose<'a>(model: &'a ActionModel, state: &State, step: usize, line: &GroundC
 /// What is missing, without the step.
 fn reason(invalid: &Invalid) -> String {
     match invalid {
-        Invalid::Precondition { atom, positive, .. } => format!("{}{atom}", if *positive { "" } else { "not " }),
+        Invalid::Precondition { needs, .. } => needs.clone(),
         Invalid::NoCase { reasons, .. } => reasons.join("; "),
         other => other.to_string(),
     }
@@ -181,7 +181,7 @@ fn usable(
     match unmet {
         Some((atom, positive)) => {
             let action = schema.signature().name;
-            Err(Invalid::Precondition { step, action, atom, positive })
+            Err(Invalid::Precondition { step, action, needs: model.in_words(&atom, positive) })
         }
         None => Ok(action),
     }
@@ -241,7 +241,7 @@ impl Search<'_> {
                 None => format!("?{}", self.schema.parameters[*p as usize].name),
             },
         });
-        format!("{}{atom}", if literal.positive { "" } else { "not " })
+        self.model.in_words(&atom, literal.positive)
     }
 }
 

@@ -133,8 +133,11 @@ pub(crate) fn read_number(item: Sexpr<'_>) -> Result<u32, PddlError> {
     let Some(digits) = item.atom() else {
         return Err(item.error("a number is expected here, not a list"));
     };
-    if digits.bytes().all(|byte| byte.is_ascii_digit()) {
-        return digits
+    // `10.0` is a whole number too.
+    let is_zero = |fraction: &str| !fraction.is_empty() && fraction.bytes().all(|byte| byte == b'0');
+    let whole = digits.split_once('.').filter(|(_, fraction)| is_zero(fraction)).map_or(digits, |(whole, _)| whole);
+    if !whole.is_empty() && whole.bytes().all(|byte| byte.is_ascii_digit()) {
+        return whole
             .parse()
             .map_err(|_| item.error(format!("numbers above {} are not supported", u32::MAX)).as_unsupported());
     }

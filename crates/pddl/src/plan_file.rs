@@ -1,5 +1,6 @@
-//! Plan files: one `(name object …)` after the other, as the planning competitions have them. A time in front and a
-//! duration behind, `0.000: (name object …) [1.000]`, are passed over.
+//! Plan files: one `(name object …)` after the other, as the planning competitions have them. With times in front,
+//! `0.000: (name object …) [1.000]`, the times give the order; actions of one time are in that of the text, and one without
+//! a time follows the one before it. Durations are passed over.
 
 use typelift_model::{Symbol, SymbolPool};
 
@@ -24,15 +25,17 @@ pub struct PlanLine {
 pub fn read_plan(text: &str) -> Result<Vec<PlanLine>, PddlError> {
     let document = Document::read(text)?;
     let mut names = SymbolPool::new();
-    let mut lines = Vec::new();
+    let mut lines: Vec<(f64, PlanLine)> = Vec::new();
     // What was read last: a time, or an action.
     let (mut time, mut action): (Option<Sexpr<'_>>, bool) = (None, false);
     for item in document.roots() {
         if item.is_list() {
             let atom = read_atom(item, &mut names)?;
-            lines.push(PlanLine { name: atom.predicate, args: atom.args, span: item.span() });
+            let stated = time.and_then(|time| read_time(time.text()));
+            let at = stated.or(lines.last().map(|(before, _)| *before)).unwrap_or(f64::NEG_INFINITY);
+            lines.push((at, PlanLine { name: atom.predicate, args: atom.args, span: item.span() }));
             (time, action) = (None, true);
-        } else if time.is_none() && is_time(item.text()) {
+        } else if time.is_none() && read_time(item.text()).is_some() {
             (time, action) = (Some(item), false);
         } else if action && is_duration(item.text()) {
             action = false;
@@ -41,15 +44,16 @@ pub fn read_plan(text: &str) -> Result<Vec<PlanLine>, PddlError> {
             return Err(error.with_hint("Each action stands in parentheses."));
         }
     }
-    match time {
-        Some(time) => Err(time.error("there is no action after this time")),
-        None => Ok(lines),
+    if let Some(time) = time {
+        return Err(time.error("there is no action after this time"));
     }
+    lines.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+    Ok(lines.into_iter().map(|(_, line)| line).collect())
 }
 
 /// `3:` or `0.000:`.
-fn is_time(text: &str) -> bool {
-    text.strip_suffix(':').is_some_and(|number| number.parse::<f64>().is_ok())
+fn read_time(text: &str) -> Option<f64> {
+    text.strip_suffix(':')?.parse().ok().filter(|time: &f64| time.is_finite())
 }
 
 /// `[1]` or `[1.000]`.
@@ -76,6 +80,12 @@ mod tests {
         assert_eq!(read("(PICK a)\n(stack a B) ; why\r\n; cost = 2\n"), Ok("pick a@0, stack a b@9".to_owned()));
         assert_eq!(read("0: (pick a) [1]\n1.5: (noop)[2.0]\n"), Ok("pick a@3, noop@21".to_owned()));
         assert_eq!(read("; nothing to do\n"), Ok(String::new()));
+    }
+
+    #[test]
+    fn times_give_the_order() {
+        assert_eq!(read("2: (c)\n1.0: (b)\n10: (d)\n.5: (a)\n1: (b2)"), Ok("a@28, b@12, b2@35, c@3, d@20".to_owned()));
+        assert_eq!(read("(a) 5: (c) (d) 1: (b)"), Ok("a@0, b@18, c@7, d@11".to_owned()));
     }
 
     #[test]

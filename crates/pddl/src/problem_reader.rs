@@ -47,7 +47,7 @@ pub fn read_problem(text: &str, domain: &Domain) -> Result<Problem, PddlError> {
         init: atoms,
         values,
         goal: read_goal(&vocabulary, &definition)?,
-        minimizes_cost: read_metric(definition.block(":metric")?)?,
+        minimizes_cost: read_metric(definition.block(":metric")?, domain)?,
         comment: Vec::new(),
     })
 }
@@ -164,10 +164,14 @@ fn read_goal(vocabulary: &Vocabulary, definition: &Definition<'_>) -> Result<For
 }
 
 /// Whether the total cost is minimized.
-fn read_metric(block: Option<Sexpr<'_>>) -> Result<bool, PddlError> {
+fn read_metric(block: Option<Sexpr<'_>>, domain: &Domain) -> Result<bool, PddlError> {
     let Some(block) = block else { return Ok(false) };
     let [direction, what] = parts(block, "`minimize` and `(total-cost)`")?;
     if direction.is("minimize") && what.has_head("total-cost") && what.children().count() == 1 {
+        if !domain.functions.iter().any(|function| function.name == *"total-cost") {
+            let error = what.error("function `total-cost` is not declared");
+            return Err(error.with_hint("Declare it in `(:functions (total-cost))` of the domain."));
+        }
         return Ok(true);
     }
     let error = block.error("metrics other than `minimize (total-cost)` are not supported");

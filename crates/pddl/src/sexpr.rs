@@ -54,6 +54,8 @@ impl<'t> Document<'t> {
         };
         let mut nodes: Vec<Node> = Vec::new();
         let mut open: Vec<usize> = Vec::new();
+        // A block, as `(:action …)`, stands in no other: the first that seems to follows one that is not closed.
+        let mut unclosed_block: Option<usize> = None;
         let mut at = 0;
         while at < bytes.len() {
             let start = at;
@@ -61,6 +63,9 @@ impl<'t> Document<'t> {
                 b';' => at += length_of(at, |b| b == b'\n'),
                 b'(' => {
                     at += 1;
+                    if open.len() > 1 && bytes.get(at) == Some(&b':') {
+                        unclosed_block = unclosed_block.or(Some(open[1]));
+                    }
                     open.push(nodes.len());
                     nodes.push(Node { span: Span { start, end: at }, next: 0, is_list: true });
                 }
@@ -80,7 +85,11 @@ impl<'t> Document<'t> {
             }
         }
         match open.pop() {
-            Some(list) => Err(PddlError::new(text, nodes[list].span, "this `(` is never closed")),
+            Some(list) => {
+                let span = nodes[unclosed_block.unwrap_or(list)].span;
+                let start = Span { start: span.start, end: span.start + 1 };
+                Err(PddlError::new(text, start, "this `(` is never closed"))
+            }
             None => Ok(Self { text, nodes }),
         }
     }
@@ -233,6 +242,8 @@ mod tests {
     #[test]
     fn unbalanced_and_trailing_text_is_refused_with_its_place() {
         assert_eq!(message("(a (b)\n  (c"), "line 2, column 3: this `(` is never closed");
+        let blocks = "(define (domain d)\n (:predicates (p))\n (:action a :effect (and (p))\n (:action b))";
+        assert_eq!(message(blocks), "line 3, column 2: this `(` is never closed");
         assert_eq!(message("(a)\n )"), "line 2, column 2: this `)` closes nothing");
         assert_eq!(message("(a)\n(b)"), "line 2, column 1: nothing may follow after the end of the expression");
         assert_eq!(message(" ; only a comment"), "line 1, column 1: there is nothing in this text");

@@ -260,6 +260,23 @@ fn what_is_not_supported_is_named() {
 }
 
 #[test]
+fn the_function_of_a_metric_is_declared() {
+    let domain = read_domain("(define (domain d) (:predicates (p)) (:action a :effect (p)))").expect("a domain");
+    let text = "(define (problem q) (:domain d) (:init) (:goal (p)) (:metric minimize (total-cost)))";
+    let error = read_problem(text, &domain).expect_err("an error");
+    assert_eq!(error.to_string(), "line 1, column 71: function `total-cost` is not declared");
+}
+
+#[test]
+fn a_whole_number_may_have_a_fraction_of_zeros() {
+    let domain = "(define (domain d) (:predicates (p)) (:functions (total-cost) (toll)) (:action a :effect (p)))";
+    let domain = read_domain(domain).expect("a domain");
+    let text = "(define (problem q) (:domain d) (:init (= (toll) 10.0)) (:goal (p)))";
+    let values = read_problem(text, &domain).expect("a problem").values;
+    assert_eq!(values.iter().map(|(_, value)| *value).collect::<Vec<_>>(), [10]);
+}
+
+#[test]
 fn deep_nesting_is_refused() {
     let deep = format!("{}(dark){}", "(not ".repeat(100_000), ")".repeat(100_000));
     assert_eq!(refused(&goal(&format!("(:goal {deep})"))).message, "nesting deeper than 250 is not supported");

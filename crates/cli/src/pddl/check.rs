@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use typelift::model::Symbol;
 use typelift::pddl::{
-    Definition, DefinitionKind, Document, Domain, PddlError, Problem, Sexpr, Trajectory, read_plan, read_problem,
-    read_trajectory, required_by_domain, required_by_problem, undeclared_requirements,
+    Definition, DefinitionKind, Document, Domain, PddlError, Problem, Sexpr, Trajectory, compile_domain,
+    compile_problem, read_plan, read_problem, read_trajectory, required_by_domain, required_by_problem,
+    undeclared_requirements,
 };
 use typelift::words::count;
 use typelift::world::{FileError, read_text};
@@ -150,7 +151,10 @@ fn content_of(file: &Path, kind: Kind, domains: &mut Domains) -> Result<Content,
         Kind::Problem(name) => {
             let domain = name.map(|name| domains.of_problem(file, &name)).transpose()?.unwrap_or_default();
             let text = read_text(file)?;
-            let problem = read_problem(&text, &domain).map_err(|error| FileError::from_pddl(file, &text, error))?;
+            let at_place = |error| FileError::from_pddl(file, &text, error);
+            let problem = read_problem(&text, &domain).map_err(at_place)?;
+            let compiled = compile_domain(&domain).and_then(|mut model| compile_problem(&problem, &mut model));
+            compiled.map_err(|error| at_place(error.locate(&text)))?;
             Ok(problem_content(&problem, &domain))
         }
         Kind::Trajectory => {

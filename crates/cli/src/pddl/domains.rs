@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-use typelift::pddl::{Definition, DefinitionKind, Document, Domain, read_domain};
+use typelift::pddl::{Definition, DefinitionKind, Document, Domain, compile_domain, read_domain};
 use typelift::world::{FileError, read_text};
 
 /// Domains, each read once.
@@ -27,7 +27,11 @@ impl Domains {
     pub(crate) fn read(&mut self, path: &Path) -> Result<Rc<Domain>, FileError> {
         let read = || {
             let text = read_text(path)?;
-            read_domain(&text).map(Rc::new).map_err(|error| FileError::from_pddl(path, &text, error))
+            let at_place = |error| FileError::from_pddl(path, &text, error);
+            let domain = read_domain(&text).map_err(at_place)?;
+            // What planning refuses is refused.
+            compile_domain(&domain).map_err(|error| at_place(error.locate(&text)))?;
+            Ok(Rc::new(domain))
         };
         self.read.entry(path.to_owned()).or_insert_with(read).clone()
     }

@@ -89,6 +89,29 @@ fn files_that_are_not_supported() {
 }
 
 #[test]
+fn what_planning_refuses_is_refused() {
+    let folder = Folder::new();
+    let domain = |rules: &str| {
+        format!(
+            "(define (domain lamps) (:types lamp) (:predicates (on ?l - lamp) (off ?l - lamp) (wired ?a ?b - lamp)) {rules})"
+        )
+    };
+    let through = "(:derived (on ?l - lamp) (not (off ?l)))\n(:derived (off ?l - lamp) (not (on ?l)))";
+    let inside = "(:derived (on ?l - lamp) (forall (?m - lamp) (imply (wired ?m ?l) (on ?m))))";
+    folder.write("p.pddl", "(define (problem p) (:domain lamps) (:objects a - lamp) (:init) (:goal (on a)))");
+    for (rules, code, message) in [
+        (through, 31, "`off` depends on its own negation, through `on`"),
+        (inside, 34, "`on` depends on itself inside of a universal quantification"),
+    ] {
+        folder.write("domain.pddl", domain(rules));
+        for command in ["pddl check domain.pddl", "pddl check domain.pddl p.pddl", "plan domain.pddl p.pddl"] {
+            let ended = folder.run(command);
+            assert!(ended.code == code && ended.err.contains(message), "{command}: {ended}");
+        }
+    }
+}
+
+#[test]
 fn where_the_domain_is_found() {
     let folder = Folder::new();
     std::fs::create_dir_all(folder.path("problems")).expect("made");

@@ -50,7 +50,7 @@ const TOTAL_COST: &str = "total-cost";
 /// The model of a domain: given actions, axioms, constants.
 ///
 /// An action of several cases becomes several, of the same call: `go`, `go-2`, …; one that can never be used, none.
-/// Without any cost in the domain, each costs 1.
+/// Where the domain declares no total cost, each costs 1.
 ///
 /// # Errors
 /// [`CompileError`] if derived predicates depend on their own negation or are changed by actions, something is not
@@ -94,7 +94,9 @@ fn domain_within(domain: &Domain, limits: Limits) -> Result<ActionModel, Compile
     }
     actions.sort_by(|a, b| a.name.cmp(&b.name));
     if !domain.actions.iter().any(|action| increases(&action.effect)) {
-        actions.iter_mut().for_each(|action| action.cost = Cost::UNIT);
+        let is_declared = domain.functions.iter().any(|function| function.name == *TOTAL_COST);
+        let cost = if is_declared { Cost::from(0) } else { Cost::UNIT };
+        actions.iter_mut().for_each(|action| action.cost = cost.clone());
     }
     let mut model = ActionModel {
         predicates: predicates.clone(),

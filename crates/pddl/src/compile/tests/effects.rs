@@ -81,7 +81,11 @@ fn costs_are_sums() {
     assert_eq!(model.actions[1].cost.fixed, 5);
     compile_problem(&problem(and([])), &mut model).expect("it compiles");
     assert!(model.actions.iter().all(|a| a.cost == typelift_model::Cost::UNIT));
-    assert_eq!(compiled(&domain(vec![free])).actions[0].cost, typelift_model::Cost::UNIT);
+    // What is declared and never increased is 0; where nothing is declared, steps are counted.
+    let mut never_increased = domain(vec![free]);
+    assert_eq!(compiled(&never_increased).actions[0].cost, typelift_model::Cost::from(0));
+    never_increased.functions.clear();
+    assert_eq!(compiled(&never_increased).actions[0].cost, typelift_model::Cost::UNIT);
 
     let conditional = when(is("wet"), increase(Amount::Number(1)));
     let error = refused(&domain(vec![action("go", "", and([]), conditional)]));
