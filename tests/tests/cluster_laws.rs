@@ -37,6 +37,36 @@ fn ancestors(edges: &[(String, String)], of: &str) -> Vec<String> {
     path
 }
 
+prop_compose! {
+    /// The same with up to two parents a type.
+    fn more_edges()(tree in edges(), more in prop::collection::vec((any::<Index>(), any::<Index>()), 0..6)) -> Vec<(String, String)> {
+        // A further parent is one that was made before the child, so that there is no cycle.
+        let order = |name: &str| (0..13).find(|i| name == format!("t{}", (i * 7) % 13)).unwrap_or(0);
+        let mut edges = tree.clone();
+        for (child, parent) in more {
+            let (child, parent) = (&tree[child.index(tree.len())].0, &tree[parent.index(tree.len())].0);
+            if order(parent) < order(child) {
+                edges.push((child.clone(), parent.clone()));
+            }
+        }
+        edges
+    }
+}
+
+/// A type and everything above it, by following all pairs.
+fn closure(edges: &[(String, String)], of: &str) -> BTreeSet<String> {
+    let mut above = BTreeSet::from([of.to_owned(), "object".to_owned()]);
+    loop {
+        let more: Vec<String> =
+            edges.iter().filter(|(child, _)| above.contains(child)).map(|(_, parent)| parent.clone()).collect();
+        let before = above.len();
+        above.extend(more);
+        if above.len() == before {
+            return above;
+        }
+    }
+}
+
 proptest! {
     #![proptest_config(cases(256))]
 
@@ -67,6 +97,34 @@ proptest! {
     }
 
     #[test]
+    fn types_of_several_parents_meet_in_the_smallest_lowest_type(edges in more_edges()) {
+        let h = Hierarchy::from_edges(edges.clone()).expect("no cycle");
+        let above: BTreeMap<TypeId, BTreeSet<String>> =
+            h.types().map(|t| (t, closure(&edges, h.name(t).as_str()))).collect();
+        let name = |ty: TypeId| h.name(ty).to_string();
+        let leaves = |ty: &TypeId| {
+            let is_leaf = |leaf: &TypeId| !h.types().any(|other| other != *leaf && above[&other].contains(&name(*leaf)));
+            h.types().filter(|leaf| is_leaf(leaf) && above[leaf].contains(&name(*ty))).count()
+        };
+        for a in h.types() {
+            let direct = h.parents(a);
+            prop_assert!(direct.iter().all(|p| !direct.iter().any(|other| other != p && h.is_a(*other, *p))));
+            for b in h.types() {
+                prop_assert_eq!(h.is_a(a, b), above[&a].contains(&name(b)));
+                let covers = |ty: TypeId| above[&a].contains(&name(ty)) && above[&b].contains(&name(ty));
+                let common: Vec<TypeId> = h.types().filter(|&ty| covers(ty)).collect();
+                let is_lowest = |ty: &TypeId| !common.iter().any(|c| c != ty && above[c].contains(&name(*ty)));
+                let lowest: Vec<TypeId> = common.iter().copied().filter(is_lowest).collect();
+                prop_assert_eq!(&h.lowest_common(a, b), &lowest);
+                let least = lowest.into_iter().min_by_key(|ty| (leaves(ty), name(*ty))).expect("the root");
+                prop_assert_eq!(h.lca(a, b), least);
+                let share = h.types().any(|ty| above[&ty].contains(&name(a)) && above[&ty].contains(&name(b)));
+                prop_assert_eq!(h.disjoint(a, b), !share);
+            }
+        }
+    }
+
+    #[test]
     fn a_larger_tree_keeps_what_ids_mean(edges in edges(), cut in any::<Index>()) {
         // Only a part in which no parent is missing; the missing ones would hang below the root.
         let all = Hierarchy::from_edges(edges.clone()).expect("a tree");
@@ -77,7 +135,7 @@ proptest! {
         prop_assert_eq!(larger.len(), part.len() + rest.len());
         for a in part.types() {
             prop_assert_eq!(part.name(a), larger.name(a));
-            prop_assert_eq!(part.parent(a), larger.parent(a));
+            prop_assert_eq!(part.parents(a), larger.parents(a));
             for b in part.types() {
                 prop_assert_eq!(part.lca(a, b), larger.lca(a, b));
             }

@@ -34,7 +34,7 @@ pub(crate) fn gives_up(guard: Guard, context: &Context<'_>, proposal: &Proposal<
         Guard::TopTypes => {
             let hierarchy = &context.model.hierarchy;
             let top = hierarchy.top();
-            let is_top = |ty: TypeId| ty == top || ty == hierarchy.root() || hierarchy.parent(ty) == Some(top);
+            let is_top = |ty: TypeId| ty == top || ty == hierarchy.root() || hierarchy.parents(ty).contains(&top);
             raised(proposal).any(|(_, _, to)| is_top(to))
         }
         Guard::Parameters => covers_another(context, proposal, |_| true),

@@ -68,7 +68,11 @@ impl TypeHierarchy {
         let top = hierarchy.top();
         let row = |ty: TypeId| TypeRow {
             name: hierarchy.name(ty).to_string(),
-            parent: hierarchy.parent(ty).filter(|_| ty != top).map(|parent| hierarchy.name(parent).to_string()),
+            parent: hierarchy
+                .parents(ty)
+                .first()
+                .filter(|_| ty != top)
+                .map(|&parent| hierarchy.name(parent).to_string()),
             depth: hierarchy.depth(ty) - hierarchy.depth(top),
             seen: seen.contains(hierarchy.name(ty).as_str()),
         };

@@ -1,5 +1,7 @@
 //! What learning makes: a model with what it was learned from.
 
+use std::collections::BTreeSet;
+
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -70,10 +72,10 @@ pub enum Disagreement {
     Type {
         /// The type.
         ty: Symbol,
-        /// Its parent in the model.
-        model: Option<Symbol>,
-        /// Its parent in the other hierarchy.
-        given: Option<Symbol>,
+        /// Its parents in the model.
+        model: BTreeSet<Symbol>,
+        /// Its parents in the other hierarchy.
+        given: BTreeSet<Symbol>,
     },
     /// The first attribute or relation that only one of them ignores.
     #[error("`{name}` is {} by the model", if *.by_model { "ignored" } else { "not ignored" })]
@@ -85,8 +87,9 @@ pub enum Disagreement {
     },
 }
 
-fn place(parent: &Option<Symbol>) -> String {
-    parent.as_ref().map_or("nowhere".to_owned(), |parent| format!("below `{parent}`"))
+fn place(parents: &BTreeSet<Symbol>) -> String {
+    let parents: Vec<String> = parents.iter().map(|parent| format!("`{parent}`")).collect();
+    if parents.is_empty() { "nowhere".to_owned() } else { format!("below {}", parents.join(" and ")) }
 }
 
 impl LearnedModel {
@@ -96,14 +99,14 @@ impl LearnedModel {
     /// [`Disagreement`]: the first, in alphabetical order.
     pub fn agrees(&self, hierarchy: &Hierarchy, parse: &ParseConfig) -> Result<(), Disagreement> {
         let own = &self.model.hierarchy;
-        let parent = |h: &Hierarchy, name: &Symbol| {
-            let parent = h.id(name.as_str()).and_then(|ty| h.parent(ty));
-            parent.map(|parent| h.name(parent).clone())
+        let parents = |h: &Hierarchy, name: &Symbol| {
+            let names = h.id(name.as_str()).map(|ty| h.parents(ty)).unwrap_or_default().iter().map(|&ty| h.name(ty));
+            names.cloned().collect::<BTreeSet<Symbol>>()
         };
         let mut names: Vec<&Symbol> = own.edges().chain(hierarchy.edges()).map(|(child, _)| child).collect();
         names.sort_unstable();
         for ty in names {
-            let (model, given) = (parent(own, ty), parent(hierarchy, ty));
+            let (model, given) = (parents(own, ty), parents(hierarchy, ty));
             if model != given {
                 return Err(Disagreement::Type { ty: ty.clone(), model, given });
             }

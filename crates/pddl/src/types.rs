@@ -54,31 +54,35 @@ pub(crate) fn types_of_block(block: Sexpr<'_>) -> Result<Vec<TypeEdge>, PddlErro
         check_new_name(text, name.name, name.span)?;
         spelled(name.name);
     }
-    declared
-        .iter()
-        .map(|declaration| {
-            let parent = declaration.ty.map_or(Ok(ROOT), parent_name)?;
-            check_new_name(text, parent, declaration.ty.map_or(declaration.span, Sexpr::span))?;
-            Ok(TypeEdge { child: spelled(declaration.name), parent: spelled(parent), span: declaration.span })
-        })
-        .collect()
+    let mut edges = Vec::with_capacity(declared.len());
+    for declaration in &declared {
+        let parents = declaration.ty.map_or(Ok(vec![(ROOT, declaration.span)]), parent_names)?;
+        for (parent, span) in parents {
+            check_new_name(text, parent, span)?;
+            let (child, parent) = (spelled(declaration.name), spelled(parent));
+            edges.push(TypeEdge { child, parent, span: declaration.span });
+        }
+    }
+    Ok(edges)
 }
 
-fn parent_name(ty: Sexpr<'_>) -> Result<&str, PddlError> {
-    ty.atom().ok_or_else(|| {
-        if ty.has_head("either") {
-            let error = ty.error("a type cannot lie below `either` of several types");
-            error.with_hint("Give the type one parent; types form a tree.").as_unsupported()
-        } else {
-            ty.error("the name of a type is expected here, not a list")
-        }
-    })
+/// The parents that are written behind a type: one, or all of `(either …)`.
+fn parent_names<'d>(ty: Sexpr<'d>) -> Result<Vec<(&'d str, Span)>, PddlError> {
+    let named = |ty: Sexpr<'d>| match ty.atom() {
+        Some(name) => Ok((name, ty.span())),
+        None => Err(ty.error("the name of a type is expected here, not a list")),
+    };
+    if !ty.has_head("either") {
+        return Ok(vec![named(ty)?]);
+    }
+    let parents: Vec<_> = ty.children().skip(1).map(named).collect::<Result<_, _>>()?;
+    if parents.is_empty() { Err(ty.error("there are no types in this `either`")) } else { Ok(parents) }
 }
 
 /// Reads the hierarchy of a `(:types …)` block or of a domain; without the block it is the root alone.
 ///
 /// # Errors
-/// [`PddlError`] as for [`read_types`], and at the declarations that do not form a tree.
+/// [`PddlError`] as for [`read_types`], and at the declarations of a cycle.
 pub fn read_hierarchy(text: &str) -> Result<Hierarchy, PddlError> {
     hierarchy_from_types(&Hierarchy::default(), text, &read_types(text)?)
 }
@@ -86,10 +90,19 @@ pub fn read_hierarchy(text: &str) -> Result<Hierarchy, PddlError> {
 /// `base` with the types declared in `text`.
 ///
 /// # Errors
-/// [`PddlError`] at the declarations that do not form a tree.
+/// [`PddlError`] at the declarations of a cycle.
 pub fn hierarchy_from_types(base: &Hierarchy, text: &str, edges: &[TypeEdge]) -> Result<Hierarchy, PddlError> {
     base.extended(edges.iter().map(|edge| (edge.child.as_str(), edge.parent.as_str())))
         .map_err(|error| locate_hierarchy_error(text, edges, &error))
+}
+
+/// Whether the declaration at a place shares its `- parent` with others.
+fn stands_in_a_list(text: &str, edges: &[TypeEdge], span: Span, parent: &Symbol) -> bool {
+    let goes_on = |other: &TypeEdge| {
+        let between = text.get(span.end..other.span.start).or_else(|| text.get(other.span.end..span.start));
+        other.span != span && other.parent == *parent && between.is_some_and(|text| !text.contains(" - "))
+    };
+    edges.iter().any(goes_on)
 }
 
 /// Finds the declarations that an error of the hierarchy is about.
@@ -97,23 +110,24 @@ pub fn locate_hierarchy_error(text: &str, edges: &[TypeEdge], error: &HierarchyE
     let find = |child: &str, parent: &str| {
         edges.iter().find(|edge| edge.child == *child && edge.parent == *parent).map(|edge| edge.span)
     };
-    let at = |span: Option<Span>| {
-        let error = PddlError::new(text, span.unwrap_or_default(), error.to_string());
-        error.with_hint("Types form a tree: take one of the declarations out.")
-    };
+    let at = |span: Option<Span>| PddlError::new(text, span.unwrap_or_default(), error.to_string());
     match error {
-        HierarchyError::TwoParents { child, first, second } => {
-            let located = at(find(child.as_str(), second.as_str()));
-            match find(child.as_str(), first.as_str()) {
-                Some(span) => located.with_related(text, span, format!("first declared below `{first}` here")),
-                None => located,
-            }
-        }
+        HierarchyError::OtherParent { child, parent, .. } => at(find(child.as_str(), parent.as_str()))
+            .with_hint("What a type means cannot be changed afterwards: take this declaration out."),
         HierarchyError::Cycle { path } => {
             let mut spans: Vec<Span> =
                 path.windows(2).filter_map(|pair| find(pair[0].as_str(), pair[1].as_str())).collect();
             spans.sort_unstable_by_key(|span| span.start);
-            let located = at(spans.last().copied());
+            let hint = match path.as_slice() {
+                [own, _] if spans.first().is_some_and(|&span| stands_in_a_list(text, edges, span, own)) => {
+                    format!(
+                        "`- {own}` is the parent of all names before it in the list, `{own}` among them: write \
+                             `{own} - object` first."
+                    )
+                }
+                _ => "Take one of the declarations out.".to_owned(),
+            };
+            let located = at(spans.last().copied()).with_hint(hint);
             match spans.as_slice() {
                 [first, .., _] => located.with_related(text, *first, "the cycle begins here"),
                 _ => located,
@@ -156,13 +170,20 @@ mod tests {
     }
 
     #[test]
-    fn two_parents_show_both_declarations() {
-        let text = "(:types\n  a - b\n  c\n  A - c)";
-        assert_eq!(
-            refused(text).render("t.pddl", text),
-            "t.pddl:4:3: type `a` has two parents, `b` and `c`\n  |\n2 |   a - b\n  |   - first declared below `b` here\n\
-             4 |   A - c)\n  |   ^\n"
-        );
+    fn a_type_may_have_several_parents() {
+        let both = ["b<object", "c<object", "a<b", "a<c"];
+        assert_eq!(edges("(:types b c - object a - b A - c)"), both);
+        assert_eq!(edges("(:types b c - object a - (either b c))"), both);
+        assert_eq!(edges("(:types a - object surface - object a - surface)"), ["surface<object", "a<surface"]);
+    }
+
+    #[test]
+    fn a_list_covers_the_names_before_the_last_too() {
+        let text = "(:types base sub - base)";
+        let error = refused(text);
+        assert_eq!(error.to_string(), "line 1, column 9: the type hierarchy has a cycle: base - base");
+        let hint = "`- base` is the parent of all names before it in the list, `base` among them: write `base - object` first.";
+        assert_eq!(error.hint.as_deref(), Some(hint));
     }
 
     #[test]
@@ -178,14 +199,13 @@ mod tests {
 
     #[test]
     fn what_else_is_refused() {
-        let either = refused("(:types a - (either b c))");
-        assert_eq!(either.to_string(), "line 1, column 13: a type cannot lie below `either` of several types");
-        assert!(either.unsupported && either.hint.is_some());
         for (text, message) in [
             (
                 "(:types object - thing)",
                 "line 1, column 9: `object` is the root of every hierarchy and cannot have the parent `thing`",
             ),
+            ("(:types a - (either))", "line 1, column 13: there are no types in this `either`"),
+            ("(:types a - (either b (c)))", "line 1, column 23: the name of a type is expected here, not a list"),
             ("(:types a - (b))", "line 1, column 13: the name of a type is expected here, not a list"),
             ("(:types a,b - c)", "line 1, column 9: `a,b` cannot be a name: it holds one of ( ) , ; \""),
             ("(:types a - b\u{A0})", "line 1, column 13: `b\u{A0}` cannot be a name: it holds white space"),
@@ -206,8 +226,11 @@ mod tests {
     fn extending_points_at_the_new_declaration() {
         let base = read_hierarchy("(:types a - b)").expect("a tree");
         let text = "(:types new - b\n a - c)";
-        let error = hierarchy_from_types(&base, text, &read_types(text).expect("edges")).expect_err("two parents");
-        assert_eq!(error.to_string(), "line 2, column 2: type `a` has two parents, `b` and `c`");
+        let error = hierarchy_from_types(&base, text, &read_types(text).expect("edges")).expect_err("a further parent");
+        assert_eq!(
+            error.to_string(),
+            "line 2, column 2: type `a` is known below `b`, and cannot be put below `c` as well"
+        );
         assert_eq!(error.related, None);
     }
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 use typelift_model::{
     ActionModel, ActionSchema, Axiom, Cost, Effect, Evidence, Hierarchy, LiftedAtom, Literal, Parameter, Provenance,
-    Support, Symbol, Term, describe_replacements, schema_name,
+    Support, Symbol, Term, TypeId, describe_replacements, schema_name,
 };
 
 use crate::text::{count, places};
@@ -167,6 +167,17 @@ pub fn individual_name(support: &Support, model: &ActionModel) -> String {
     schema_name(&key.action, key.types.iter().map(|name| (name, is_actor(name))))
 }
 
+/// The types that cover these as well and are as low, where there are several: `, with fewer leaves than tool`.
+fn rather_than(hierarchy: &Hierarchy, met: impl Iterator<Item = TypeId>, taken: TypeId) -> String {
+    let met: Vec<TypeId> = met.collect();
+    let covers = |ty: TypeId| met.iter().all(|&met| hierarchy.is_a(met, ty));
+    let common: Vec<TypeId> = hierarchy.types().filter(|&ty| covers(ty)).collect();
+    let is_lowest = |ty: TypeId| !common.iter().any(|&other| other != ty && hierarchy.is_a(other, ty));
+    let others = common.iter().filter(|&&ty| ty != taken && is_lowest(ty)).map(|&ty| hierarchy.name(ty).as_str());
+    let others: Vec<&str> = others.collect();
+    if others.is_empty() { String::new() } else { format!(", which covers no more than {} would", others.join(" or ")) }
+}
+
 /// Why individual actions were merged: the same effect, and where their types meet.
 fn because(action: &ActionSchema, model: &ActionModel) -> Vec<String> {
     let mut reasons = vec!["all have this effect;".to_owned()];
@@ -179,7 +190,10 @@ fn because(action: &ActionSchema, model: &ActionModel) -> Vec<String> {
         }
         if met.len() > 1 {
             let names: Vec<&str> = met.keys().map(|name| name.as_str()).collect();
-            reasons.push(format!("{} meet in {};", names.join(", "), model.hierarchy.name(parameter.ty)));
+            let hierarchy = &model.hierarchy;
+            let of_others =
+                rather_than(hierarchy, met.keys().filter_map(|name| hierarchy.id(name.as_str())), parameter.ty);
+            reasons.push(format!("{} meet in {}{of_others};", names.join(", "), hierarchy.name(parameter.ty)));
         }
     }
     if let Some(last) = reasons.last_mut() {

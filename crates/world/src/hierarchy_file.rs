@@ -1,7 +1,10 @@
-//! Hierarchy files: a PDDL `(:types …)` block, a whole domain, or JSON `{"child": "parent"}`.
+//! Hierarchy files: a PDDL `(:types …)` block, a whole domain, or JSON `{"child": "parent"}`, where several parents are a
+//! list.
 
+use std::fmt;
 use std::path::{Path, PathBuf};
 
+use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};
 use typelift_model::{Hierarchy, Symbol, check_name};
 use typelift_pddl::{PddlError, Span, TypeEdge, hierarchy_from_types};
 
@@ -40,7 +43,7 @@ impl TypesFile {
         Ok(Self { path: name.to_owned(), text, edges })
     }
 
-    /// Each type with its parent, in the order of the file.
+    /// Each type with each of its parents, in the order of the file.
     pub fn edges(&self) -> &[TypeEdge] {
         &self.edges
     }
@@ -58,7 +61,7 @@ impl TypesFile {
 /// Reads a hierarchy file, which kind it is being told from its content.
 ///
 /// # Errors
-/// [`FileError`] if it is neither kind, or at the declarations that do not form a tree.
+/// [`FileError`] if it is neither kind, or at the declarations of a cycle.
 pub fn read_hierarchy(path: &Path) -> Result<Hierarchy, FileError> {
     hierarchy_from_text(path, read_text(path)?)
 }
@@ -82,15 +85,59 @@ pub fn read_types(path: &Path) -> Result<TypesFile, FileError> {
 const EXAMPLE: &str = "Write `(:types rod leek - piece)` or `{\"rod\": \"piece\", \"leek\": \"piece\"}`.";
 
 fn json_types(path: &Path, text: &str) -> Result<Vec<TypeEdge>, FileError> {
-    // The reader of JSON keeps no places and the last of two equal keys; so it only checks the form. In an object
-    // whose values are strings, every other string is a key.
+    // The reader of JSON keeps no places, so it only checks the form. The strings of the text are, in turn, a key and its
+    // parents.
     #[derive(serde::Deserialize)]
     #[serde(transparent)]
-    struct Pairs(#[serde(deserialize_with = "json::pairs")] Vec<(Symbol, Symbol)>);
-    let Pairs(pairs) = serde_json::from_str(text)
+    struct Types(#[serde(deserialize_with = "json::pairs")] Vec<(Symbol, Parents)>);
+    let Types(types) = serde_json::from_str(text)
         .map_err(|error| FileError::from_json(path, 1, &error).with_hint(EXAMPLE.to_owned()))?;
-    let keys = string_spans(text).into_iter().step_by(2);
-    Ok(pairs.into_iter().zip(keys).map(|((child, parent), span)| TypeEdge { child, parent, span }).collect())
+    let mut spans = string_spans(text).into_iter();
+    let mut edges: Vec<TypeEdge> = Vec::with_capacity(types.len());
+    for (child, Parents(parents)) in types {
+        let span = spans.next().unwrap_or_default();
+        if edges.iter().any(|known| known.child == child) {
+            let error = PddlError::new(text, span, format!("the key `{child}` stands here twice"));
+            let hint = format!("Several parents are a list: `{{\"{child}\": [\"tool\", \"weapon\"]}}`.");
+            return Err(FileError::from_pddl(path, text, error.with_hint(hint)));
+        }
+        spans.by_ref().take(parents.len()).for_each(drop);
+        edges.extend(parents.into_iter().map(|parent| TypeEdge { child: child.clone(), parent, span }));
+    }
+    Ok(edges)
+}
+
+/// The parents of a type: a string, or a list of strings.
+struct Parents(Vec<Symbol>);
+
+impl<'de> Deserialize<'de> for Parents {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct OneOrMore;
+        impl<'de> Visitor<'de> for OneOrMore {
+            type Value = Parents;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a string, or a list of strings")
+            }
+
+            fn visit_str<E: de::Error>(self, parent: &str) -> Result<Parents, E> {
+                Ok(Parents(vec![Symbol::new(parent)]))
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Parents, A::Error> {
+                let mut parents = Vec::new();
+                while let Some(parent) = list.next_element()? {
+                    parents.push(parent);
+                }
+                if parents.is_empty() {
+                    Err(de::Error::invalid_length(0, &"a parent at least"))
+                } else {
+                    Ok(Parents(parents))
+                }
+            }
+        }
+        deserializer.deserialize_any(OneOrMore)
+    }
 }
 
 /// The bytes between the quotes of each string of a JSON text.
@@ -136,14 +183,18 @@ mod tests {
     }
 
     #[test]
-    fn a_duplicate_key_is_a_second_parent() {
-        let error = read("{\n  \"a\": \"b\",\n  \"a\": \"c\"\n}").expect_err("two parents");
+    fn several_parents_are_a_list() {
         assert_eq!(
-            error.render(),
-            "types:3:4: type `a` has two parents, `b` and `c`\n  |\n2 |   \"a\": \"b\",\n  |    - first declared below `b` here\n\
-             3 |   \"a\": \"c\"\n  |    ^\n"
+            edges(r#"{"knife": ["tool", "weapon"], "saw": "tool"}"#),
+            ["tool<object", "weapon<object", "knife<tool", "knife<weapon", "saw<tool"]
         );
-        assert!(read(r#"{"a": "b", "a": "b"}"#).is_ok());
+        let error = read("{\n  \"a\": \"b\",\n  \"a\": \"c\"\n}").expect_err("a key twice");
+        assert_eq!(error.to_string(), "types:3:4: the key `a` stands here twice");
+        assert_eq!(
+            read(r#"{"a": ["b", "c"], "b": "a"}"#).expect_err("a cycle").to_string(),
+            "types:1:19: the type hierarchy has a cycle: a - b - a"
+        );
+        assert!(read(r#"{"a": []}"#).is_err());
     }
 
     #[test]
@@ -152,9 +203,8 @@ mod tests {
             ("", "types: the file is empty"),
             ("rod - piece", "types: this is neither PDDL types nor a JSON object of types"),
             ("{\"a\": \"b\",\n\"b\": \"a\"}", "types:2:2: the type hierarchy has a cycle: a - b - a"),
-            ("{\"a\": 1}", "types:1:7: invalid type: integer `1`, expected a string"),
+            ("{\"a\": 1}", "types:1:7: invalid type: integer `1`, expected a string, or a list of strings"),
             ("{\"a\": \"b\"", "types:1:9: the JSON text ends too early"),
-            ("(:types a - b\n a - c)", "types:2:2: type `a` has two parents, `b` and `c`"),
             ("{\"a\": \"two words\"}", "types:1:3: `two words` cannot be a name: it holds white space"),
             (r#"{"a\"\\": "b"}"#, "types:1:3: `a\"\\` cannot be a name: it holds one of ( ) , ; \""),
             ("{\"\": \"a\"}", "types:1:3: `` cannot be a name: it is empty"),

@@ -1,5 +1,6 @@
 //! Hierarchy files.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use typelift::model::Hierarchy;
@@ -27,9 +28,11 @@ pub(super) fn checked_hierarchy(bytes: &[u8]) -> Option<Hierarchy> {
         write!(pddl, " {child} - {parent}").expect("memory");
     }
     pddl.push(')');
-    let pairs: serde_json::Map<String, serde_json::Value> =
-        hierarchy.edges().map(|(child, parent)| (child.to_string(), parent.as_str().into())).collect();
-    let json = serde_json::Value::from(pairs).to_string();
+    let mut parents: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for (child, parent) in hierarchy.edges() {
+        parents.entry(child.to_string()).or_default().push(parent.to_string());
+    }
+    let json = serde_json::to_string(&parents).expect("JSON");
     let edges = |read: &Hierarchy| {
         let mut edges: Vec<String> = read.edges().map(|(child, parent)| format!("{child} - {parent}")).collect();
         edges.sort();

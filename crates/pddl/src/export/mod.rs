@@ -3,7 +3,7 @@
 //! Names go through the model's mapping to PDDL's and back ([`ExportNames`]). A pair of parameters that must differ is
 //! written only where their types can share an object; elsewhere the types say it. The model keeps no types of
 //! predicates: an argument gets the lowest type that covers its uses in actions, axioms and task, so that the domain
-//! written for one task may differ in this from the domain written for another.
+//! written for one task may differ in this from the domain written for another. Types with several parents become a tree.
 
 mod action;
 mod argument_types;
@@ -15,6 +15,7 @@ mod exclusive;
 mod names;
 mod note;
 mod problem;
+mod single_parents;
 mod strips;
 
 use std::borrow::Cow;
@@ -115,6 +116,9 @@ pub fn export(model: &ActionModel, task: Option<&Task>, options: &ExportOptions)
         notes.extend(compiled.notes);
         (Cow::Owned(compiled.model), compiled.task.map(Cow::Owned))
     };
+    if !model.hierarchy.is_tree() {
+        (model, task) = take(single_parents::compile(&model, task.as_deref()));
+    }
     if options.level == Level::Strips {
         (model, task) = take(strips::compile(&model, task.as_deref())?);
     }
