@@ -1,5 +1,6 @@
 //! What the tests that cross rooms share; the tests themselves are in `tests/tests`.
 
+pub mod by_hand;
 pub mod open;
 pub mod readers;
 pub mod schema;

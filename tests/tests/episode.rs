@@ -1,19 +1,16 @@
 //! The episode's state machine, fed by hand: what it answers to observations, refusals, time-outs, rejections, and to
 //! inputs that do not fit. A saw cuts rods and planks; there are two saws, and a beam.
 
-use std::collections::BTreeSet;
 use std::sync::Arc;
 use typelift::agent::{
     Account, Command, CommandId, Ending, Episode, EpisodeError, Event, Experience, Input, Objection, Options,
     StepResult, Suspect,
 };
-use typelift::learn::{evidence_of, learn};
-use typelift::model::{
-    ActionModel, Budget, GoalError, GroundAtom, GroundCall, Hierarchy, ParseConfig, Plan, State, Symbol,
-};
+use typelift::model::{Budget, GoalError, GroundAtom, Plan, State, Symbol};
 use typelift::plan::Exclusion;
 use typelift::words::{WireCommand, wire_command};
-use typelift::world::{Dataset, Parser, Scene, Trace, TraceAction, Verdict};
+use typelift::world::{Scene, Verdict};
+use typelift_tests::by_hand::{BENCH, ByHand, bench, id, saws, told};
 
 fn failed_calls(account: &Account) -> Vec<String> {
     account.failures.iter().map(|failure| failure.call.to_string()).collect()
@@ -21,144 +18,6 @@ fn failed_calls(account: &Account) -> Vec<String> {
 
 fn has_reason(ending: &Ending) -> bool {
     matches!(ending, Ending::NoPlan(why) if !why.to_string().is_empty())
-}
-
-fn saws() -> (Arc<ActionModel>, Parser) {
-    let edges = [("rod", "piece"), ("plank", "piece"), ("beam", "piece"), ("saw", "machine"), ("cat", "guest")];
-    let hierarchy = Hierarchy::from_edges(edges).expect("a tree");
-    let mut parser = Parser::new(hierarchy.clone(), ParseConfig::default());
-    let mut shown = Dataset { hierarchy: hierarchy.clone(), ..Dataset::default() };
-    for kind in ["rod", "plank"] {
-        let mut scene = |atom: &str| {
-            let objects = [("saw_1", "saw"), ("it", kind)].map(|(o, t)| (Symbol::new(o), Symbol::new(t))).into();
-            let atoms = [GroundAtom::new(atom, vec![Symbol::new("it")])].into();
-            parser.parse(&Scene::Symbolic { objects, atoms, unknown: BTreeSet::new() }).expect("a state")
-        };
-        let states = vec![scene("whole"), scene("cut")];
-        let call = cut("saw_1", "it");
-        let actions = vec![TraceAction::from(call)];
-        shown.traces.push(Trace { states, actions, ..Trace::default() });
-    }
-    let learned = learn(&hierarchy, &evidence_of(&shown).total(), &Default::default()).expect("a model");
-    (Arc::new(learned.model), parser)
-}
-
-fn cut(saw: &str, it: &str) -> GroundCall {
-    GroundCall { name: Symbol::new("cut"), args: vec![Symbol::new(saw), Symbol::new(it)] }
-}
-
-fn bench(parser: &mut Parser, objects: &[(&str, &str)], atoms: &[&str]) -> State {
-    let objects = objects.iter().map(|(o, t)| (Symbol::new(o), Symbol::new(t))).collect();
-    let atoms = atoms.iter().map(|atom| GroundAtom::parse(atom).expect("an atom")).collect();
-    parser.parse(&Scene::Symbolic { objects, atoms, unknown: BTreeSet::new() }).expect("a state")
-}
-
-/// An episode with a beam and two saws, and the states in which the beam is whole and cut.
-struct ByHand {
-    episode: Episode,
-    /// The last command.
-    command: Command,
-    events: Vec<Event>,
-    whole: State,
-    cut: State,
-    parser: Parser,
-}
-
-const BENCH: [(&str, &str); 3] = [("saw_1", "saw"), ("saw_2", "saw"), ("b", "beam")];
-
-/// A command in words.
-fn told(command: &Command) -> String {
-    match command {
-        Command::Reset { .. } => "reset".to_owned(),
-        Command::Observe { .. } => "observe".to_owned(),
-        Command::Propose { plan, .. } => {
-            let calls: Vec<String> = plan.steps.iter().map(|step| step.call.to_string()).collect();
-            format!("propose {}", calls.join(" "))
-        }
-        Command::Act { call, .. } => format!("act {call}"),
-        Command::Await { call, .. } => format!("await {call}"),
-        Command::Done(account) => format!("done, {}", account.ending.word()),
-    }
-}
-
-fn id(command: &Command) -> CommandId {
-    match command {
-        Command::Reset { id }
-        | Command::Observe { id }
-        | Command::Propose { id, .. }
-        | Command::Act { id, .. }
-        | Command::Await { id, .. } => *id,
-        Command::Done(_) => CommandId::default(),
-    }
-}
-
-impl ByHand {
-    fn new(options: Options) -> Self {
-        let (model, mut parser) = saws();
-        let goal = vec![GroundAtom::parse("cut(b)").expect("an atom")];
-        let mut episode = Episode::new(model, goal, options, Experience::new(), Budget::unlimited());
-        let (whole, cut) = (bench(&mut parser, &BENCH, &["whole(b)"]), bench(&mut parser, &BENCH, &["cut(b)"]));
-        let command = episode.step(Input::Started, &mut ()).expect("nothing was planned");
-        assert_eq!(told(&command), "reset");
-        Self { episode, command, events: Vec::new(), whole, cut, parser }
-    }
-
-    /// One to which a plan was proposed.
-    fn asked(options: Options) -> Self {
-        let mut this = Self::new(options);
-        let whole = this.whole.clone();
-        assert_eq!(this.reset(whole), "propose cut(saw_1, b)");
-        this
-    }
-
-    /// One that has started to cut with the first saw.
-    fn cutting(options: Options) -> Self {
-        let mut this = Self::asked(options);
-        assert_eq!(this.approve(), "act cut(saw_1, b)");
-        this
-    }
-
-    fn input(&mut self, input: Input) -> String {
-        self.command = self.episode.step(input, &mut self.events).expect("the planner does not err");
-        told(&self.command)
-    }
-
-    /// Answers the last command.
-    fn answer(&mut self, input: impl FnOnce(CommandId) -> Input) -> String {
-        self.input(input(id(&self.command)))
-    }
-
-    fn reset(&mut self, state: State) -> String {
-        self.answer(|id| Input::Reset { id, state, instance: None })
-    }
-
-    fn observed(&mut self, state: State) -> String {
-        self.answer(|id| Input::Observation { id, state })
-    }
-
-    fn approve(&mut self) -> String {
-        self.answer(|id| Input::Approve { id })
-    }
-
-    fn timed_out(&mut self) -> String {
-        self.answer(|id| Input::TimedOut { id })
-    }
-
-    fn refused(&mut self) -> String {
-        let state = self.whole.clone();
-        self.answer(|id| Input::Refused { id, reason: "jammed".to_owned(), state })
-    }
-
-    fn reject(&mut self, step: usize, objection: Option<Objection>) -> String {
-        self.answer(|id| Input::Reject { id, step, objection, reason: "blunt".to_owned() })
-    }
-
-    fn account(&self) -> &Account {
-        match &self.command {
-            Command::Done(account) => account,
-            other => panic!("{other:?}"),
-        }
-    }
 }
 
 #[test]

@@ -35,6 +35,8 @@ pub(crate) enum Phase {
     AwaitingResult,
     /// The result of a step that timed out is about to be observed.
     AwaitingLateState,
+    /// What is observed now, to plan from: planning erred after something was judged or rejected.
+    AwaitingState,
     /// Nothing.
     Over,
 }
@@ -145,7 +147,8 @@ impl Episode {
     /// nothing and is answered by the command that stands; where that is an action, by [`Command::Await`].
     ///
     /// # Errors
-    /// [`EpisodeError`] if the goal does not fit what is observed first, or the planner errs.
+    /// [`EpisodeError`] if the goal does not fit what is observed first; then nothing has changed. Or if the planner errs:
+    /// what the input said has been taken in, and [`Command::Observe`] stands. Whoever answers that has it plan again.
     pub fn step(&mut self, input: Input, observer: &mut dyn Observer) -> Result<Command, EpisodeError> {
         if self.phase == Phase::Over {
             return Ok(self.standing());
@@ -158,6 +161,16 @@ impl Episode {
             _ if input.id() != Some(self.standing) => return Ok(self.standing()),
             _ => {}
         }
+        let answered = self.answer(input, observer);
+        if let Err(EpisodeError::Propose(_)) = answered {
+            // What was judged or rejected is not to be so again, and what was planned before is not to be carried out.
+            self.command(Phase::AwaitingState);
+        }
+        answered
+    }
+
+    /// What follows from an input that answers the command that stands.
+    fn answer(&mut self, input: Input, observer: &mut dyn Observer) -> Result<Command, EpisodeError> {
         match (self.phase, self.completed(input)) {
             (Phase::AwaitingReset, Input::Reset { state, instance, .. }) => self.begin(state, instance, observer),
             (Phase::AwaitingApproval, Input::Approve { .. }) => self.advance(observer),
@@ -172,6 +185,10 @@ impl Episode {
             (Phase::AwaitingResult, Input::TimedOut { .. }) => Ok(self.command(Phase::AwaitingLateState)),
             (Phase::AwaitingLateState, Input::Observation { state, .. } | Input::Refused { state, .. }) => {
                 self.judge(state, Some(Verdict::TimedOut), None, observer)
+            }
+            (Phase::AwaitingState, Input::Observation { state, .. }) => {
+                self.state = state;
+                self.propose(observer)
             }
             _ => Ok(self.standing()),
         }
@@ -194,7 +211,7 @@ impl Episode {
         match (self.phase, &self.execution, step) {
             (Phase::AwaitingApproval, Some(execution), _) => Command::Propose { id, plan: execution.plan.clone() },
             (Phase::AwaitingResult, _, Some(step)) => Command::Await { id, call: step.call.clone() },
-            (Phase::AwaitingLateState, ..) => Command::Observe { id },
+            (Phase::AwaitingLateState | Phase::AwaitingState, ..) => Command::Observe { id },
             (Phase::Over, ..) => Command::Done(Box::new(self.account.clone())),
             _ => Command::Reset { id },
         }
