@@ -156,6 +156,11 @@ impl ByHand {
         self.answer(|id| Input::Approve { id })
     }
 
+    /// Another plan is wanted.
+    pub fn another_plan(&mut self) -> String {
+        self.answer(|id| Input::AnotherPlan { id })
+    }
+
     /// The action was not finished in time.
     pub fn timed_out(&mut self) -> String {
         self.answer(|id| Input::TimedOut { id })

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 use typelift::agent::{
     Account, Command, CommandId, Ending, Episode, EpisodeError, Event, Experience, Input, Objection, Options,
-    StepResult, Suspect,
+    RestoreError, StepResult, Suspect, WhyNoOther,
 };
 use typelift::model::{Budget, GoalError, GroundAtom, Plan, State, Symbol};
 use typelift::plan::Exclusion;
@@ -202,17 +202,27 @@ fn a_result_counts_for_the_action_that_it_answers() {
 #[test]
 fn another_plan_says_nothing_against_the_first() {
     let mut it = ByHand::asked(Options::default());
-    let planning = |it: &ByHand| it.events.iter().filter(|e| matches!(e, Event::PlanningStarted { .. })).count();
-    let searches = planning(&it);
-    assert_eq!(it.answer(|id| Input::AnotherPlan { id }), "propose cut(saw_2, b)");
-    assert_eq!(planning(&it), searches, "the same search goes on");
+    assert_eq!(it.another_plan(), "propose cut(saw_2, b)");
     let stands = it.command.clone();
-    assert_eq!(it.answer(|id| Input::AnotherPlan { id }), "propose cut(saw_2, b)");
+    assert_eq!(it.another_plan(), "propose cut(saw_2, b)");
     assert_eq!(it.command, stands, "there is no third one, and the second stands");
-    assert_eq!(it.events.last(), Some(&Event::NoOtherPlan { proposal: 2 }));
+    assert_eq!(it.events.last(), Some(&Event::NoOtherPlan { proposal: 2, why: WhyNoOther::NoMorePlans }));
+    // Every search is told as planning, and what it took is in the account.
+    let planning = |event: &Event| match event {
+        Event::PlanningStarted { proposal } => Some(format!("{proposal}?")),
+        Event::PlanningEnded { found, .. } => Some(found.to_string()),
+        _ => None,
+    };
+    assert_eq!(it.events.iter().filter_map(planning).collect::<Vec<_>>(), ["1?", "true", "2?", "true", "3?", "false"]);
+    let expanded = it.events.iter().map(|event| match event {
+        Event::PlanningEnded { expansions, .. } => *expansions,
+        _ => 0,
+    });
+    let expanded: u64 = expanded.sum();
     assert_eq!(it.approve(), "act cut(saw_2, b)");
     let after = it.cut.clone();
     assert_eq!(it.observed(after), "done, solved");
+    assert_eq!(it.account().expansions, expanded);
     assert!(it.account().failures.is_empty() && it.episode.experience().failures().is_empty());
 }
 
@@ -316,4 +326,26 @@ fn commands_and_inputs_go_over_a_wire() {
     assert_eq!(wire(&it.command), r#"{"command":"done","ending":"solved","proposals":1,"actions":1}"#);
     let no = r#"{"input":"reject","id":2,"step":1,"objection":{"because":"while","atom":"wet(b)"},"reason":"wet"}"#;
     assert!(matches!(read(no), Input::Reject { objection: Some(Objection::While { .. }), .. }));
+}
+
+#[test]
+fn a_saved_episode_that_contradicts_itself_is_refused() {
+    let refused = |it: &ByHand, change: fn(&mut serde_json::Value)| {
+        let mut saved = serde_json::from_str(&it.episode.save()).expect("JSON");
+        change(&mut saved);
+        let restored = Episode::restore(&saved.to_string(), saws().0, Options::default(), Budget::unlimited());
+        matches!(restored, Err(RestoreError::Contradiction(_)))
+    };
+    let asked = ByHand::asked(Options::default());
+    let cutting = ByHand::cutting(Options::default());
+    let mut late = ByHand::cutting(Options::default());
+    late.timed_out();
+    for it in [&asked, &cutting, &late] {
+        assert!(!refused(it, |_| {}), "as it was saved");
+        assert!(refused(it, |saved| saved["execution"]["steps"] = serde_json::json!([])));
+        assert!(refused(it, |saved| saved["execution"] = serde_json::Value::Null));
+        assert!(refused(it, |saved| saved["execution"]["next_step"] = 1.into()), "there is one step only");
+        assert!(refused(it, |saved| saved["execution"]["taken"] = 2.into()));
+    }
+    assert!(refused(&asked, |saved| saved["execution"]["taken"] = 1.into()), "it was not approved");
 }

@@ -135,6 +135,9 @@ impl Episode {
             && execution.retries < most
             && execution.missing_precondition(&self.state).is_none()
         {
+            if let Some(stop) = self.budget.stopped() {
+                return Ok(self.end(Ending::Stopped(stop), observer));
+            }
             execution.retries += 1;
             if let Some(step) = execution.step() {
                 observer.event(&Event::Retried { call: step.call.clone() });

@@ -1,12 +1,25 @@
 //! What happens during an episode, for its observers.
 
 use serde::Serialize;
-use typelift_model::{GroundAtom, GroundCall, Plan, Symbol};
+use typelift_model::{GroundAtom, GroundCall, Plan, Stop, Symbol};
 use typelift_world::Record;
 
 use crate::blame::Suspect;
 use crate::monitor::StepResult;
 use crate::resort::Resort;
+
+/// Why no other plan is proposed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum WhyNoOther {
+    /// There is none.
+    NoMorePlans,
+    /// No more may be proposed.
+    ProposalLimit,
+    /// The search was stopped before it found one. Asked again, it goes on.
+    Stopped(Stop),
+}
 
 /// Something that happened. `P` is how plans are told: programs outside are given a view of them.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -81,10 +94,12 @@ pub enum Event<P = Plan> {
         /// What.
         resort: Resort,
     },
-    /// Another plan was asked for, and there is none, or no more may be proposed.
+    /// Another plan was asked for, and none is proposed.
     NoOtherPlan {
         /// The number of the proposal that stands.
         proposal: u64,
+        /// Why.
+        why: WhyNoOther,
     },
     /// It is over.
     Ended {
@@ -109,7 +124,7 @@ impl<P: Clone> Event<P> {
             Self::Excluded { suspect, reason } => Event::Excluded { suspect, reason },
             Self::Drifted { step, missing } => Event::Drifted { step, missing },
             Self::LastResort { resort } => Event::LastResort { resort },
-            Self::NoOtherPlan { proposal } => Event::NoOtherPlan { proposal },
+            Self::NoOtherPlan { proposal, why } => Event::NoOtherPlan { proposal, why },
             Self::Ended { solved } => Event::Ended { solved },
         }
     }

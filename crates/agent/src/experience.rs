@@ -6,7 +6,7 @@ use typelift_plan::{Ban, Restrictions};
 
 use crate::blame::{Condition, Suspect, suspects};
 use crate::deed::{Deed, Failed, Success};
-use crate::resort::Counted;
+use crate::resort::CountedExclusions;
 
 /// Why something is avoided, and how often that was seen.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -84,7 +84,7 @@ impl Experience {
 
     /// What to avoid in the current task, in an instance: as a planner is told, and the conditions that keep actions
     /// from being used.
-    pub fn avoided(&self, instance: &Symbol, counted: Counted) -> (Restrictions, Vec<Condition>) {
+    pub fn avoided(&self, instance: &Symbol, counted: CountedExclusions) -> (Restrictions, Vec<Condition>) {
         let mut restrictions = Restrictions::default();
         let mut conditions = Vec::new();
         for failed in &self.failures {
@@ -94,9 +94,9 @@ impl Experience {
             }
             let counts = failed.objection.is_some()
                 || match counted {
-                    Counted::All => true,
-                    Counted::OfThisTask => failed.task == self.tasks,
-                    Counted::None => false,
+                    CountedExclusions::All => true,
+                    CountedExclusions::OfThisTask => failed.task == self.tasks,
+                    CountedExclusions::None => false,
                 };
             if !counts {
                 continue;
@@ -228,10 +228,14 @@ mod tests {
             let (restrictions, _) = experience.avoided(&instance.into(), counted);
             (restrictions.excluded.len(), restrictions.types.len())
         };
-        assert_eq!(counts("here", Counted::All), (1, 1));
-        assert_eq!(counts("there", Counted::All), (0, 1), "a thing stays where it is, a kind is the same everywhere");
-        assert_eq!(counts("here", Counted::OfThisTask), (0, 1), "what a person said is not lifted");
-        assert_eq!(counts("here", Counted::None), (0, 1));
+        assert_eq!(counts("here", CountedExclusions::All), (1, 1));
+        assert_eq!(
+            counts("there", CountedExclusions::All),
+            (0, 1),
+            "a thing stays where it is, a kind is the same everywhere"
+        );
+        assert_eq!(counts("here", CountedExclusions::OfThisTask), (0, 1), "what a person said is not lifted");
+        assert_eq!(counts("here", CountedExclusions::None), (0, 1));
         let text = serde_json::to_string(&experience).expect("JSON");
         assert_eq!(serde_json::from_str::<Experience>(&text).expect("the same"), experience);
     }

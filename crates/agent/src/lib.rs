@@ -2,8 +2,8 @@
 //! expected, exclude what failed, imagine again, replan, remember.
 //!
 //! An [`Episode`] is a state machine without a thread, a clock or a world of its own: its driver does what the
-//! [`Command`] says and reports with an [`Input`], which names the command that it answers. A page, a notebook or a robot's own loop can drive it; [`run`] drives
-//! it over a [`World`](typelift_world::World).
+//! [`Command`] says and reports with an [`Input`], which names the command that it answers. A page, a notebook or a
+//! robot's own loop can drive it; [`run`] drives it over a [`World`](typelift_world::World).
 #![deny(missing_docs)]
 
 mod account;
@@ -28,13 +28,13 @@ pub use account::{Account, Ending, Failure};
 pub use blame::{Condition, Suspect, suspects};
 pub use deed::{Deed, Failed, Participant, Success};
 pub use episode::{Episode, EpisodeError};
-pub use event::{Event, Observer};
+pub use event::{Event, Observer, WhyNoOther};
 pub use experience::{Experience, Remembered};
 pub use monitor::{StepResult, compare};
 pub use objection::Objection;
 pub use options::Options;
 pub use propose::{Proposal, ProposeError, propose};
-pub use resort::{Counted, LastResort, LastResorts, Resort, ResortState};
+pub use resort::{CountedExclusions, LastResort, LastResorts, Resort, ResortState};
 pub use run::{Confirmation, RunError, run};
 pub use saved::{EPISODE_FORMAT, RestoreError};
 pub use turn::{Command, CommandId, Input};

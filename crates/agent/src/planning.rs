@@ -3,17 +3,25 @@
 use std::sync::Arc;
 
 use typelift_model::{ActionModel, Plan, State, Stop, Task};
-use typelift_plan::Outcome;
+use typelift_plan::{Outcome, Report};
 
 use crate::account::Ending;
 use crate::blame::with_conditions;
 use crate::episode::{Episode, EpisodeError, Phase};
-use crate::event::{Event, Observer};
+use crate::event::{Event, Observer, WhyNoOther};
 use crate::execution::{Execution, Terms, steps};
 use crate::options::Options;
 use crate::propose::{Proposal, ProposeError, propose, widened};
-use crate::resort::{Counted, Resort};
+use crate::resort::{CountedExclusions, Resort};
 use crate::turn::Command;
+
+/// What planning came to, on which terms.
+struct Planned {
+    proposal: Proposal,
+    terms: Terms,
+    /// The last resort that it is due to.
+    resort: Option<Resort>,
+}
 
 impl Episode {
     /// Plans from the current state.
@@ -25,24 +33,27 @@ impl Episode {
         if self.account.proposals >= self.options.max_proposals {
             return Ok(self.end(Ending::ProposalLimit(self.options.max_proposals), observer));
         }
-        let (mut proposal, terms) = match self.plan_with_last_resorts(observer) {
+        let Planned { mut proposal, terms, resort } = match self.plan_with_last_resorts(observer) {
             Ok(planned) => planned,
             Err(ProposeError::Stopped(stop)) => return Ok(self.end(Ending::Stopped(stop), observer)),
             Err(error) => return Err(error.into()),
         };
         // A plan that did not lead to the goal from this very state, though no step of it failed, is not begun again.
         let mut plans_given = 1;
-        while self.was_in_vain(&proposal.outcome) {
-            proposal.outcome = proposal.next_plan(&self.budget)?;
-            plans_given += 1;
+        let was_in_vain = matches!(&proposal.outcome, Outcome::Solved(plan) if self.was_in_vain(plan));
+        if was_in_vain {
+            proposal.outcome = self.search_on(&mut proposal, &mut plans_given, observer)?;
+        }
+        if let Some(resort) = resort {
+            self.note_resort(resort, &proposal.outcome, observer);
         }
         let ending = match &proposal.outcome {
-            Outcome::Unsolvable | Outcome::NoMorePlans | Outcome::Stopped(Stop::Expansions) if plans_given > 1 => {
-                Ending::Circular
-            }
             Outcome::Solved(plan) => {
                 let plan = plan.clone();
                 return Ok(self.offer(plan, proposal, terms, plans_given, observer));
+            }
+            Outcome::Unsolvable | Outcome::NoMorePlans | Outcome::Stopped(Stop::Expansions) if was_in_vain => {
+                Ending::Circular
             }
             Outcome::Unsolvable | Outcome::NoMorePlans => {
                 self.account.goal_type_mismatches = proposal.goal_type_mismatches();
@@ -53,8 +64,7 @@ impl Episode {
         Ok(self.end(ending, observer))
     }
 
-    fn was_in_vain(&self, outcome: &Outcome) -> bool {
-        let Outcome::Solved(plan) = outcome else { return false };
+    fn was_in_vain(&self, plan: &Plan) -> bool {
         self.in_vain.iter().any(|(state, tried)| *state == self.state && *tried == steps(plan))
     }
 
@@ -82,80 +92,138 @@ impl Episode {
         self.command(Phase::AwaitingApproval)
     }
 
-    /// The next plan of the same search. If there is none, or no more may be proposed, the proposed one stands.
+    /// The next plan of the same search. If none is found, or no more may be proposed, the proposed one stands, and the
+    /// event says why.
     pub(crate) fn another_plan(&mut self, observer: &mut dyn Observer) -> Result<Command, EpisodeError> {
         let Some(execution) = &self.execution else { return Ok(self.standing()) };
-        let (terms, plans_given) = (execution.terms.clone(), execution.plans_given);
+        let (terms, mut plans_given) = (execution.terms.clone(), execution.plans_given);
+        if self.account.proposals >= self.options.max_proposals {
+            return Ok(self.no_other_plan(WhyNoOther::ProposalLimit, observer));
+        }
         let mut proposal = match self.proposal.take() {
             Some(proposal) => proposal,
-            // After restoring, the search is taken up where it was.
-            None => {
-                let mut proposal = self.plan_on(&terms)?;
-                for _ in 1..plans_given {
-                    proposal.next_plan(&self.budget)?;
+            None => match self.taken_up(&terms, plans_given, observer) {
+                Ok(proposal) => proposal,
+                Err(ProposeError::Stopped(stop)) => {
+                    return Ok(self.no_other_plan(WhyNoOther::Stopped(stop), observer));
                 }
-                proposal
-            }
+                Err(error) => return Err(error.into()),
+            },
         };
-        let (before, mut given) = (proposal.report().expansions, plans_given);
-        let mut outcome = Outcome::NoMorePlans;
-        if self.account.proposals < self.options.max_proposals {
-            loop {
-                outcome = proposal.next_plan(&self.budget)?;
-                given += 1;
-                if !self.was_in_vain(&outcome) {
-                    break;
-                }
-            }
-        }
-        self.account.expansions += proposal.report().expansions.saturating_sub(before);
-        if let Outcome::Solved(plan) = outcome {
-            return Ok(self.offer(plan, proposal, terms, given, observer));
-        }
-        observer.event(&Event::NoOtherPlan { proposal: self.account.proposals });
+        let outcome = self.search_on(&mut proposal, &mut plans_given, observer)?;
+        let why = match outcome {
+            Outcome::Solved(plan) => return Ok(self.offer(plan, proposal, terms, plans_given, observer)),
+            Outcome::Unsolvable | Outcome::NoMorePlans => WhyNoOther::NoMorePlans,
+            Outcome::Stopped(stop) => WhyNoOther::Stopped(stop),
+        };
         if let Some(execution) = &mut self.execution {
-            execution.plans_given = given;
+            execution.plans_given = plans_given;
         }
         self.proposal = Some(proposal);
-        Ok(self.standing())
+        Ok(self.no_other_plan(why, observer))
     }
 
-    /// Plans. Where there is no plan, it takes the last resorts that there are, one after the other, until there is one.
-    fn plan_with_last_resorts(&mut self, observer: &mut dyn Observer) -> Result<(Proposal, Terms), ProposeError> {
+    fn no_other_plan(&self, why: WhyNoOther, observer: &mut dyn Observer) -> Command {
+        observer.event(&Event::NoOtherPlan { proposal: self.account.proposals, why });
+        self.standing()
+    }
+
+    /// The search that gave so many plans on these terms before the episode was saved, where it was then. What it spends
+    /// on that was counted then.
+    fn taken_up(
+        &self,
+        terms: &Terms,
+        plans_given: usize,
+        observer: &mut dyn Observer,
+    ) -> Result<Proposal, ProposeError> {
+        observer.event(&Event::PlanningStarted { proposal: self.account.proposals + 1 });
+        let planned = self.plan_on(terms).and_then(|mut proposal| {
+            let mut outcome = proposal.outcome.clone();
+            for _ in 1..plans_given {
+                if !matches!(outcome, Outcome::Solved(_)) {
+                    break;
+                }
+                outcome = proposal.next_plan(&self.budget)?;
+            }
+            match outcome {
+                Outcome::Stopped(stop) => Err(ProposeError::Stopped(stop)),
+                _ => Ok(proposal),
+            }
+        });
+        let report = planned.as_ref().map(Proposal::report).unwrap_or_default();
+        observer.event(&planning_ended(report, planned.as_ref().ok(), planned.is_ok()));
+        planned
+    }
+
+    /// The next plan of a search that was not in vain here, told as planning. Whatever is given counts, but a search that
+    /// was stopped gave nothing.
+    fn search_on(
+        &mut self,
+        proposal: &mut Proposal,
+        plans_given: &mut usize,
+        observer: &mut dyn Observer,
+    ) -> Result<Outcome, ProposeError> {
+        observer.event(&Event::PlanningStarted { proposal: self.account.proposals + 1 });
+        let before = proposal.report().expansions;
+        let outcome = loop {
+            let outcome = proposal.next_plan(&self.budget);
+            let Ok(Outcome::Solved(plan)) = &outcome else { break outcome };
+            *plans_given += 1;
+            if !self.was_in_vain(plan) {
+                break outcome;
+            }
+        };
+        let report = proposal.report();
+        let report = Report { expansions: report.expansions.saturating_sub(before), ..report };
+        self.count(report);
+        observer.event(&planning_ended(report, Some(proposal), matches!(outcome, Ok(Outcome::Solved(_)))));
+        outcome
+    }
+
+    /// Plans. Where there is no plan, it tries the last resorts that there are, one after the other, until there is one or
+    /// the budget ends it.
+    fn plan_with_last_resorts(&mut self, observer: &mut dyn Observer) -> Result<Planned, ProposeError> {
         let counted = self.account.resorts.counted();
         let usual = self.terms(counted);
         let proposal = self.plan_aloud(&usual, observer)?;
         if has_answer(&proposal.outcome) {
-            return Ok((proposal, usual));
+            return Ok(Planned { proposal, terms: usual, resort: None });
         }
         let resorts: Vec<Resort> = self.account.resorts.iter().map(|last| last.resort).collect();
         for resort in resorts {
             let Some(terms) = self.terms_by(resort, counted, &usual) else { continue };
             let other = self.plan_aloud(&terms, observer)?;
-            let led_to_a_plan = has_answer(&other.outcome);
-            self.account.resorts.tried(resort, led_to_a_plan.then_some(self.account.proposals + 1));
-            if led_to_a_plan {
-                observer.event(&Event::LastResort { resort });
-                return Ok((other, terms));
+            if has_answer(&other.outcome) {
+                return Ok(Planned { proposal: other, terms, resort: Some(resort) });
             }
+            self.account.resorts.tried(resort, None);
         }
-        Ok((proposal, usual))
+        Ok(Planned { proposal, terms: usual, resort: None })
+    }
+
+    /// Notes what became of a resort, before the plan that it led to is offered. One that the budget ended led to none.
+    fn note_resort(&mut self, resort: Resort, outcome: &Outcome, observer: &mut dyn Observer) {
+        let led_to_a_plan = matches!(outcome, Outcome::Solved(_));
+        self.account.resorts.tried(resort, led_to_a_plan.then_some(self.account.proposals + 1));
+        if led_to_a_plan {
+            observer.event(&Event::LastResort { resort });
+        }
     }
 
     /// On what terms a resort plans, instead of the usual ones; none if it gives nothing up. An episode that sets the
     /// world back only lifts what was excluded before it; nor is more given up where nothing has failed yet.
-    fn terms_by(&self, resort: Resort, counted: Counted, usual: &Terms) -> Option<Terms> {
+    fn terms_by(&self, resort: Resort, counted: CountedExclusions, usual: &Terms) -> Option<Terms> {
         let goes_on = !self.options.restart && !self.account.failures.is_empty();
         let terms = match resort {
-            Resort::EarlierExclusions if counted == Counted::All => self.terms(Counted::OfThisTask),
+            Resort::EarlierExclusions if counted == CountedExclusions::All => self.terms(CountedExclusions::OfThisTask),
             Resort::Strictness if goes_on && self.options.strict => Terms { relaxed: true, ..usual.clone() },
-            Resort::AllExclusions if goes_on => self.terms(Counted::None),
+            Resort::AllExclusions if goes_on => self.terms(CountedExclusions::None),
             _ => return None,
         };
         (terms != *usual).then_some(terms)
     }
 
-    fn terms(&self, counted: Counted) -> Terms {
+    fn terms(&self, counted: CountedExclusions) -> Terms {
         let (restrictions, conditions) = self.experience.avoided(&self.instance, counted);
         Terms { restrictions, conditions, relaxed: false }
     }
@@ -165,16 +233,16 @@ impl Episode {
         observer.event(&Event::PlanningStarted { proposal: self.account.proposals + 1 });
         let planned = self.plan_on(terms);
         let report = planned.as_ref().map(Proposal::report).unwrap_or_default();
+        self.count(report);
+        let found = planned.as_ref().is_ok_and(|proposal| matches!(proposal.outcome, Outcome::Solved(_)));
+        observer.event(&planning_ended(report, planned.as_ref().ok(), found));
+        planned
+    }
+
+    /// Adds what planning took to the account.
+    fn count(&mut self, report: Report) {
         self.account.expansions += report.expansions;
         self.account.ground_actions = self.account.ground_actions.max(report.ground_actions);
-        let imagined = planned.as_ref().map(|p| p.imagination.actions.iter().map(|a| a.name.clone()).collect());
-        observer.event(&Event::PlanningEnded {
-            expansions: report.expansions,
-            ground_actions: report.ground_actions,
-            imagined: imagined.unwrap_or_default(),
-            found: planned.as_ref().is_ok_and(|p| matches!(p.outcome, Outcome::Solved(_))),
-        });
-        planned
     }
 
     /// Plans on these terms from the current state.
@@ -194,6 +262,17 @@ impl Episode {
     fn asked(&self, terms: &Terms, state: &State) -> (Task, Options) {
         let task = Task { init: state.clone(), goal: self.goal.clone(), values: self.values.clone() };
         (task, Options { strict: self.options.strict && !terms.relaxed, ..self.options.clone() })
+    }
+}
+
+/// That planning ended, with what it took.
+fn planning_ended(report: Report, proposal: Option<&Proposal>, found: bool) -> Event {
+    let imagined = proposal.into_iter().flat_map(|proposal| &proposal.imagination.actions);
+    Event::PlanningEnded {
+        expansions: report.expansions,
+        ground_actions: report.ground_actions,
+        imagined: imagined.map(|action| action.name.clone()).collect(),
+        found,
     }
 }
 

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 /// Which exclusions count. Bans always do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Counted {
+pub enum CountedExclusions {
     /// All.
     All,
     /// Those that failures in the current task led to, and those that a person asked for.
@@ -47,9 +47,9 @@ impl Resort {
 pub enum ResortState {
     /// It was not needed, or does not apply.
     Untried,
-    /// It was tried, and there was no plan either.
+    /// It was tried and led to no proposal: there was no plan either, none but what was in vain before, or no time for one.
     InVain,
-    /// It led to a plan: the number of the first proposal that rests on it.
+    /// It led to a proposal: the number of the first that rests on it.
     Taken(u64),
 }
 
@@ -98,17 +98,17 @@ impl LastResorts {
     }
 
     /// Which exclusions count, with what was given up so far.
-    pub(crate) fn counted(&self) -> Counted {
+    pub(crate) fn counted(&self) -> CountedExclusions {
         if self.is_taken(Resort::AllExclusions) {
-            Counted::None
+            CountedExclusions::None
         } else if self.is_taken(Resort::EarlierExclusions) {
-            Counted::OfThisTask
+            CountedExclusions::OfThisTask
         } else {
-            Counted::All
+            CountedExclusions::All
         }
     }
 
-    /// Notes whether a resort led to a plan, with the proposal's number. What was taken once stays taken.
+    /// Notes whether a resort led to a proposal, with its number. What was taken once stays taken.
     pub(crate) fn tried(&mut self, resort: Resort, proposal: Option<u64>) {
         let found = self.0.iter_mut().filter(|last| last.resort == resort);
         for last in found.filter(|last| !matches!(last.state, ResortState::Taken(_))) {

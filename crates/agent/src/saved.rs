@@ -36,6 +36,9 @@ pub enum RestoreError {
     /// With this model and these options it cannot have been saved: something that it mentions is not there.
     #[error("the episode was saved with another model or other options: {0}")]
     OtherModel(String),
+    /// What it says does not go together: it was changed after it was saved.
+    #[error("the saved episode contradicts itself: {0}")]
+    Contradiction(&'static str),
     /// What was imagined could not be imagined again.
     #[error(transparent)]
     Propose(#[from] ProposeError),
@@ -186,14 +189,16 @@ impl SavedExecution {
             step.filter(|step| step.call == saved.call).ok_or_else(other)
         };
         let plan = Plan { steps: self.steps.into_iter().map(step).collect::<Result<_, _>>()? };
-        let next_step = self.next_step.min(plan.len());
+        if self.next_step > plan.len() || self.taken > plan.len() {
+            return Err(RestoreError::Contradiction("it is further than its plan is long"));
+        }
         Ok(Execution {
-            taken: self.taken.min(plan.len()),
+            taken: self.taken,
             plan,
             terms: self.terms,
             made_for,
             plans_given: self.plans_given,
-            next_step,
+            next_step: self.next_step,
             retries: self.retries,
             model,
         })
@@ -219,7 +224,7 @@ impl Episode {
             in_vain: in_vain.collect(),
             account: self.account.clone(),
         };
-        // Every part is made of what JSON can hold.
+        // Only a map whose keys are no text can fail here, and the only map has names as keys.
         serde_json::to_string(&saved).unwrap_or_default()
     }
 
@@ -230,7 +235,8 @@ impl Episode {
     /// The cost is that of imagining once, where imagination is allowed.
     ///
     /// # Errors
-    /// [`RestoreError`] if the text is no saved episode, or was saved with another model or other options.
+    /// [`RestoreError`] if the text is no saved episode, was saved with another model or other options, or contradicts
+    /// itself.
     pub fn restore(
         text: &str,
         model: Arc<ActionModel>,
@@ -271,9 +277,24 @@ impl Episode {
             let planned_with = episode.planned_on(&execution.terms, &made_for)?;
             episode.execution = Some(execution.restored(made_for, planned_with)?);
         }
+        episode.check_phase()?;
         if episode.account.solved() {
             episode.account.plan = Some(episode.plan_taken());
         }
         Ok(episode)
+    }
+
+    /// That what the episode waits for can come.
+    fn check_phase(&self) -> Result<(), RestoreError> {
+        let has_step = self.execution.as_ref().is_some_and(|execution| execution.step().is_some());
+        let has_begun = self.execution.as_ref().is_some_and(|execution| execution.next_step > 0 || execution.taken > 0);
+        match self.phase {
+            Phase::AwaitingApproval if !has_step => Err(RestoreError::Contradiction("there is no plan to approve")),
+            Phase::AwaitingApproval if has_begun => Err(RestoreError::Contradiction("a plan has begun unapproved")),
+            Phase::AwaitingResult | Phase::AwaitingLateState if !has_step => {
+                Err(RestoreError::Contradiction("there is no step whose result could come"))
+            }
+            _ => Ok(()),
+        }
     }
 }

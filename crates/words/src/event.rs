@@ -1,6 +1,6 @@
 //! What happens during an episode, a line each.
 
-use typelift_agent::{Event, StepResult};
+use typelift_agent::{Event, StepResult, WhyNoOther};
 use typelift_world::Verdict;
 
 use crate::plan::imagined_part;
@@ -36,6 +36,10 @@ pub fn line(event: &Event) -> Option<Text> {
             None => format!("the world changed by itself: {missing} no longer holds"),
         }),
         Event::LastResort { resort } => indented().plain(format!("nothing left to try: {}", resort.phrase())),
-        Event::NoOtherPlan { .. } => indented().plain("there is no other plan"),
+        Event::NoOtherPlan { why, .. } => indented().plain(match why {
+            WhyNoOther::NoMorePlans => "there is no other plan".to_owned(),
+            WhyNoOther::ProposalLimit => "no more plans may be proposed".to_owned(),
+            WhyNoOther::Stopped(stop) => format!("no other plan was found: {stop}"),
+        }),
     })
 }
