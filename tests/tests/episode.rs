@@ -8,7 +8,7 @@ use typelift::agent::{
 };
 use typelift::model::{Budget, GoalError, GroundAtom, Plan, State, Symbol};
 use typelift::plan::Exclusion;
-use typelift::words::{WireCommand, wire_command};
+use typelift::words::{AccountView, WireCommand, wire_command};
 use typelift::world::{Scene, Verdict};
 use typelift_tests::by_hand::{BENCH, ByHand, bench, id, saws, told};
 
@@ -282,6 +282,28 @@ fn objects_come_and_go() {
 }
 
 #[test]
+fn what_vanished_is_not_acted_on_whatever_the_mode() {
+    for restart in [false, true] {
+        let objects = [("saw_1", "saw"), ("saw_2", "saw"), ("b", "beam"), ("c", "beam")];
+        let options = Options { restart, ..Options::default() };
+        let mut it = ByHand::at(&objects, &["b", "c"], options, Budget::unlimited());
+        let whole = it.whole.clone();
+        assert_eq!(it.reset(whole.clone()), "propose cut(saw_1, b) cut(saw_1, c)");
+        assert_eq!(it.approve(), "act cut(saw_1, b)");
+        // The saw does its work, and is taken away.
+        let state = bench(&mut it.parser, &objects[1..], &["cut(b)", "whole(c)"]);
+        if restart {
+            assert_eq!(it.observed(state), "reset");
+            assert_eq!(it.reset(whole), "propose cut(saw_1, b) cut(saw_1, c)");
+        } else {
+            assert_eq!(it.observed(state), "propose cut(saw_2, c)");
+        }
+        assert!(it.events.iter().any(|event| matches!(event, Event::Drifted { step: 2, .. })));
+        assert!(it.episode.experience().failures().is_empty());
+    }
+}
+
+#[test]
 fn the_number_of_proposals_is_limited() {
     let mut it = ByHand::cutting(Options { max_proposals: 1, retries: Some(0), ..Options::default() });
     it.refused();
@@ -300,14 +322,15 @@ fn a_changed_mind_about_the_ending_is_not_recorded() {
 fn commands_and_inputs_go_over_a_wire() {
     let mut it = ByHand::asked(Options::default());
     let hierarchy = saws().0.hierarchy.clone();
-    let wire = |command: &Command| {
-        let command = wire_command(command.clone(), &hierarchy);
+    let wire = |command: &Command, episode: &Episode| {
+        let command =
+            wire_command(command.clone(), &hierarchy, |account| AccountView::of("saw", account, episode, 0.5));
         let text = serde_json::to_string(&command).expect("JSON");
         assert_eq!(serde_json::from_str::<WireCommand>(&text).expect("a command"), command);
         text
     };
     let plan = r#"{"cost":1,"steps":[{"action":"cut-saw-piece","name":"cut","args":["saw_1","b"]}]}"#;
-    assert_eq!(wire(&it.command), format!(r#"{{"command":"propose","id":2,"plan":{plan}}}"#));
+    assert_eq!(wire(&it.command, &it.episode), format!(r#"{{"command":"propose","id":2,"plan":{plan}}}"#));
     let mut parser = it.parser.clone();
     let mut read = |text: &str| {
         let input: Input<Scene> = serde_json::from_str(text).expect("an input");
@@ -319,11 +342,18 @@ fn commands_and_inputs_go_over_a_wire() {
     };
     assert_eq!(it.input(read(r#"{"input":"approve","id":1}"#)), "propose cut(saw_1, b)", "that is another command");
     assert_eq!(it.input(read(r#"{"input":"approve","id":2}"#)), "act cut(saw_1, b)");
-    assert_eq!(wire(&it.command), r#"{"command":"act","id":3,"call":{"name":"cut","args":["saw_1","b"]}}"#);
+    assert_eq!(
+        wire(&it.command, &it.episode),
+        r#"{"command":"act","id":3,"call":{"name":"cut","args":["saw_1","b"]}}"#
+    );
     let state = r#"{"objects":{"saw_1":"saw","saw_2":"saw","b":"beam"},"atoms":["cut(b)"]}"#;
     let observed = format!(r#"{{"input":"observation","id":3,"state":{state}}}"#);
     assert_eq!(it.input(read(&observed)), "done, solved");
-    assert_eq!(wire(&it.command), r#"{"command":"done","ending":"solved","proposals":1,"actions":1}"#);
+    let told = wire(&it.command, &it.episode);
+    let done =
+        r#"{"command":"done","task":"saw","solved":true,"ending":"solved","proposals":1,"actions":1,"plan_length":1"#;
+    assert!(told.starts_with(done), "{told}");
+    assert!(told.ends_with(r#""failures":[],"excluded":[]}"#), "{told}");
     let no = r#"{"input":"reject","id":2,"step":1,"objection":{"because":"while","atom":"wet(b)"},"reason":"wet"}"#;
     assert!(matches!(read(no), Input::Reject { objection: Some(Objection::While { .. }), .. }));
 }

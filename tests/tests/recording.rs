@@ -3,13 +3,15 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use typelift::agent::{Account, Confirmation, Episode, Event, Experience, Observer, Options, StepResult, run};
+use typelift::agent::{
+    Account, Command, Confirmation, Episode, Event, Experience, Input, Observer, Options, StepResult, run,
+};
 use typelift::imagine;
 use typelift::model::{ActionModel, Budget, ParseConfig, Plan};
 use typelift::world::{
     Parser, Record, Recorder, Reset, Trace, TraceHeader, Transition, Verdict, World, WorldError, read_trace,
 };
-use typelift_kitchen::{KitchenTask, faults, hierarchy};
+use typelift_kitchen::{KitchenTask, faults, hierarchy, tasks};
 use typelift_lab::kitchen_model;
 use typelift_tests::Watched;
 
@@ -63,6 +65,10 @@ fn assert_same(recorder: &Recorder, heard: &Heard, name: &str) {
         let heard = record.transition();
         assert_eq!((read.before, read.action, read.after), (heard.before, heard.action, heard.after), "{name}");
         assert!(read.action.expected.is_some() && read.action.verdict.is_some(), "{name}");
+    }
+    for (record, result) in heard.records.iter().zip(&heard.results) {
+        let (verdict, result) = (serde_json::to_value(record.action.verdict), serde_json::to_value(result));
+        assert_eq!(verdict.expect("JSON"), result.expect("JSON"), "{name}: one spelling");
     }
     let judged = heard.records.iter().filter_map(|record| record.action.verdict).map(StepResult::Tried);
     assert_eq!(judged.collect::<Vec<_>>(), heard.results, "{name}: every step has its record");
@@ -138,4 +144,66 @@ fn a_world_that_does_something_else_is_recorded_with_what_it_did() {
     assert_same(&recorder, &heard, &task.name);
     let nothing = heard.records.iter().filter(|record| record.action.verdict == Some(Verdict::Nothing));
     assert!(nothing.clone().count() > 0 && nothing.clone().all(|record| record.action.executed == Some(true)));
+}
+
+#[test]
+fn an_action_that_is_not_finished_in_time_is_recorded_with_what_is_seen_then() {
+    let model = Arc::new(kitchen_model(false));
+    let task = faults().into_iter().find(|task| task.name == "broken_cutboard_lettuce").expect("a fault");
+    for is_done in [false, true] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut is_first = true;
+        let mut world = Watched::with(move |kitchen, call| {
+            let late = std::mem::take(&mut is_first);
+            let acted = if late && !is_done { None } else { Some(kitchen.act(call)?) };
+            let in_time = acted.filter(|_| !late);
+            in_time.ok_or_else(|| WorldError::TimedOut { account: "it took too long".to_owned() })
+        });
+        let (account, heard, recorder) = recorded(&model, &mut world, &task, false, folder.path());
+        assert!(account.is_some(), "the world can be observed");
+        assert_same(&recorder, &heard, &task.name);
+        let action = &heard.records.first().expect("a step").action;
+        let verdict = if is_done { Verdict::AsExpected } else { Verdict::TimedOut };
+        assert_eq!((action.executed, action.verdict), (None, Some(verdict)));
+    }
+}
+
+#[test]
+fn a_restored_episode_is_recorded_from_its_next_step() {
+    let model = Arc::new(kitchen_model(false));
+    let task = tasks().into_iter().find(|task| task.name == "T1.1").expect("a task");
+    let options = Options { imagine: Some(imagine::Options::default()), ..Options::default() };
+    let reset = Reset { seed: 0, scenario: Some(task.scenario.clone()) };
+    for is_under_way in [false, true] {
+        let mut world = Watched::new();
+        let mut parser = Parser::new(hierarchy(), ParseConfig::default());
+        let state = parser.parse(&world.reset(&reset).expect("a room")).expect("a state");
+        let (goal, budget) = (task.goal.clone(), Budget::unlimited);
+        let mut episode = Episode::new(Arc::clone(&model), goal, options.clone(), Experience::new(), budget());
+        let Ok(Command::Reset { id }) = episode.step(Input::Started, &mut ()) else { panic!("it begins") };
+        let proposed = episode.step(Input::Reset { id, state, instance: None }, &mut ());
+        let Ok(Command::Propose { id, .. }) = proposed else { panic!("{proposed:?}") };
+        if is_under_way {
+            let Ok(Command::Act { call, .. }) = episode.step(Input::Approve { id }, &mut ()) else {
+                panic!("approved")
+            };
+            world.act(&call).expect("a room");
+        }
+        let restored = Episode::restore(&episode.save(), Arc::clone(&model), options.clone(), budget());
+        let mut episode = restored.expect("it was saved");
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut recorder = Recorder::new(folder.path(), "T1.1", TraceHeader::default());
+        let (mut heard, mut approve) = (Heard::default(), |_: &Plan| Confirmation::Approve);
+        let recorded = Some(&mut recorder);
+        let account = run(&mut episode, &mut world, &reset, &mut parser, &mut approve, &mut heard, recorded);
+        assert!(account.expect("the simulator works").solved());
+        assert_eq!(world.resets, 1, "it goes on where it was");
+        if is_under_way {
+            // What was observed before that step is not known as the environment told it.
+            heard.records.remove(0);
+            heard.results.remove(0);
+        }
+        assert!(!heard.records.is_empty());
+        assert_same(&recorder, &heard, "T1.1");
+    }
 }

@@ -28,11 +28,11 @@ impl Episode {
             }
             return Ok(self.end(Ending::Solved, observer));
         }
-        if !self.options.restart
-            && let Some(missing) = execution.missing_precondition(&self.state)
-        {
+        // The paper does not look at preconditions before a step; but what vanished cannot be acted on, nor be recorded.
+        let looks = !self.options.restart || execution.expected(&self.state).is_none();
+        if looks && let Some(missing) = execution.missing_precondition(&self.state) {
             observer.event(&Event::Drifted { step: execution.next_step + 1, missing });
-            return self.propose(observer);
+            return self.again(observer);
         }
         if let Some(stop) = self.budget.stopped() {
             return Ok(self.end(Ending::Stopped(stop), observer));

@@ -38,15 +38,10 @@ impl StepResult {
         }
     }
 
-    /// Its name in events and reports.
+    /// The word for it wherever a program reads it: the verdict's own, as traces have it.
     pub fn word(self) -> &'static str {
         match self {
-            Self::Tried(Verdict::AsExpected) => "as_expected",
-            Self::Tried(Verdict::Nothing) => "nothing_changed",
-            Self::Tried(Verdict::Partly) => "partly",
-            Self::Tried(Verdict::Otherwise) => "otherwise",
-            Self::Tried(Verdict::Refused) => "refused",
-            Self::Tried(Verdict::TimedOut) => "timed_out",
+            Self::Tried(verdict) => verdict.word(),
             Self::Rejected => "rejected",
         }
     }

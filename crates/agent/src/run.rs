@@ -1,7 +1,7 @@
 //! A blocking driver: an episode over a world.
 
 use thiserror::Error;
-use typelift_model::Plan;
+use typelift_model::{Plan, State};
 use typelift_world::{
     Acted, FileError, ParseError, Parser, Record, Recorder, Reset, Scene, TraceAction, World, WorldError, instance_of,
 };
@@ -10,7 +10,7 @@ use crate::account::Account;
 use crate::episode::{Episode, EpisodeError};
 use crate::event::{Event, Observer};
 use crate::objection::Objection;
-use crate::turn::{Command, Input};
+use crate::turn::{Command, CommandId, Input};
 
 /// The answer of the person who is asked about a plan.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -49,8 +49,12 @@ pub enum RunError {
     Record(#[from] FileError),
 }
 
-/// Drives an episode over a world; `confirm` is asked before each plan is executed. With a recorder, each step is on the
-/// disk before the observer is told of it and before the next action is sent.
+/// Drives an episode over a world; `confirm` is asked before each plan is executed. An action that is not finished in time
+/// is followed by an observation, as long as the world gives one.
+///
+/// With a recorder, each step is on the disk before the observer is told of it and before the next action is sent. Of an
+/// episode that was restored, a step that had been commanded before is not recorded: what was observed before it is not
+/// known in the world's own words. The trace begins with what is observed after it, or before the next step.
 ///
 /// # Errors
 /// [`RunError`] if the environment fails, the planner errs, or what happens cannot be recorded.
@@ -63,8 +67,7 @@ pub fn run(
     observer: &mut dyn Observer,
     recorder: Option<&mut Recorder>,
 ) -> Result<Account, RunError> {
-    let mut recording = RecordingObserver { observer, recorder, first: None, acted: None, error: None };
-    let mut parse = |scene: &Scene| parser.parse(scene);
+    let mut recording = RecordingObserver::new(observer, recorder);
     let mut input = Input::Started;
     loop {
         let command = episode.step(input, &mut recording);
@@ -75,13 +78,15 @@ pub fn run(
             Command::Reset { id } => {
                 // What cannot be set back is taken as it is.
                 let scene = if world.can_reset() { world.reset(reset)? } else { world.observe()? };
-                let state = parse(&scene)?;
+                let state = parser.parse(&scene)?;
                 recording.first = Some(scene);
                 Input::Reset { id, state, instance: Some(instance_of(world, reset)) }
             }
-            // Actions are answered at once, so none is ever under way.
             Command::Observe { id } | Command::Await { id, .. } => {
-                Input::Observation { id, state: parse(&world.observe()?)? }
+                let scene = world.observe()?;
+                let state = parser.parse(&scene)?;
+                recording.observed(scene);
+                Input::Observation { id, state }
             }
             Command::Propose { id, plan } => match confirm(&plan) {
                 Confirmation::Approve => Input::Approve { id },
@@ -90,14 +95,17 @@ pub fn run(
                 Confirmation::Stop => Input::Stop,
             },
             Command::Act { id, call } => {
-                recording.begin()?;
-                let acted = world.act(&call)?;
-                let state = parse(&acted.scene)?;
-                let acted = recording.acted.insert(acted);
-                match &acted.reason {
-                    _ if acted.executed => Input::Observation { id, state },
-                    Some(reason) => Input::Refused { id, reason: reason.clone(), state },
-                    None => Input::Refused { id, reason: "not executed".to_owned(), state },
+                recording.begin(world)?;
+                match world.act(&call) {
+                    Err(WorldError::TimedOut { .. }) => {
+                        recording.is_late = true;
+                        Input::TimedOut { id }
+                    }
+                    acted => {
+                        let acted = acted?;
+                        let state = parser.parse(&acted.scene)?;
+                        result_input(id, recording.acted(acted), state)
+                    }
                 }
             }
             Command::Done(account) => return Ok(*account),
@@ -105,33 +113,81 @@ pub fn run(
     }
 }
 
+/// The input that tells the result of an action.
+fn result_input(id: CommandId, result: &StepRecord, state: State) -> Input {
+    match &result.reason {
+        _ if result.executed == Some(true) => Input::Observation { id, state },
+        Some(reason) => Input::Refused { id, reason: reason.clone(), state },
+        None => Input::Refused { id, reason: "not executed".to_owned(), state },
+    }
+}
+
+/// What a trace says of the step that is about to be judged, besides what the judgement does.
+struct StepRecord {
+    after: Scene,
+    /// Whether the environment says that it did it, if it said anything in time.
+    executed: Option<bool>,
+    reason: Option<String>,
+}
+
 /// Records each step as the environment told it, and only then tells the observer.
 struct RecordingObserver<'a> {
     observer: &'a mut dyn Observer,
     recorder: Option<&'a mut Recorder>,
-    /// What was observed after a reset, as long as nothing was done.
+    /// What was observed where a trace is to begin, as long as nothing was done.
     first: Option<Scene>,
+    /// Whether a trace was begun.
+    has_begun: bool,
+    /// Whether an action was not finished in time, and nothing was observed since.
+    is_late: bool,
     /// What came of the action that is about to be judged.
-    acted: Option<Acted>,
+    result: Option<StepRecord>,
     /// Why a step could not be recorded; from then on nothing is told.
     error: Option<FileError>,
 }
 
-impl RecordingObserver<'_> {
-    /// Something is about to be done: begins a trace if it is the first action after a reset.
-    fn begin(&mut self) -> Result<(), FileError> {
-        match (self.first.take(), &mut self.recorder) {
-            (Some(first), Some(recorder)) => recorder.begin(&first),
-            _ => Ok(()),
+impl<'a> RecordingObserver<'a> {
+    fn new(observer: &'a mut dyn Observer, recorder: Option<&'a mut Recorder>) -> Self {
+        Self { observer, recorder, first: None, has_begun: false, is_late: false, result: None, error: None }
+    }
+
+    /// Something is about to be done: begins a trace if it is the first action after a reset, or the first of all.
+    fn begin(&mut self, world: &mut dyn World) -> Result<(), RunError> {
+        let Some(recorder) = &mut self.recorder else { return Ok(()) };
+        let first = match self.first.take() {
+            None if !self.has_begun => Some(world.observe()?),
+            first => first,
+        };
+        if let Some(first) = first {
+            recorder.begin(&first)?;
+            self.has_begun = true;
+        }
+        Ok(())
+    }
+
+    /// An action was answered.
+    fn acted(&mut self, acted: Acted) -> &StepRecord {
+        let Acted { scene, executed, reason } = acted;
+        self.result.insert(StepRecord { after: scene, executed: Some(executed), reason })
+    }
+
+    /// Something was observed without being acted on: after an action that was not finished in time, else where a trace
+    /// can begin.
+    fn observed(&mut self, scene: Scene) {
+        if std::mem::take(&mut self.is_late) {
+            self.result = Some(StepRecord { after: scene, executed: None, reason: None });
+        } else {
+            self.first = Some(scene);
         }
     }
 }
 
 impl Observer for RecordingObserver<'_> {
     fn record(&mut self, record: &Record) {
-        if let (Some(recorder), Some(Acted { scene, executed, reason })) = (&mut self.recorder, self.acted.take()) {
-            let action = TraceAction { executed: Some(executed), reason, ..record.action.clone() };
-            self.error = recorder.step(&action, &scene).err();
+        if let (Some(recorder), Some(StepRecord { after, executed, reason })) = (&mut self.recorder, self.result.take())
+        {
+            let action = TraceAction { executed, reason, ..record.action.clone() };
+            self.error = recorder.step(&action, &after).err();
         }
         if self.error.is_none() {
             self.observer.record(record);

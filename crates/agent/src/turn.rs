@@ -143,8 +143,7 @@ pub enum Input<S = State> {
         /// What is observed now.
         state: S,
     },
-    /// The action was not finished in time, but the world can be observed: for a robot's own loop. [`run`](crate::run) treats a
-    /// world that does not answer as failed.
+    /// The action was not finished in time, but the world may still be observed, which the episode asks for next.
     TimedOut {
         /// The id of the command that is answered.
         id: CommandId,

@@ -2,10 +2,12 @@
 
 use std::fs::File;
 use std::io::{BufWriter, Write};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use typelift::agent::{Event, Observer};
-use typelift::model::Hierarchy;
+use typelift::model::{Budget, Hierarchy, Stop};
 use typelift::words::{line, wire_event};
 
 use crate::style::painted;
@@ -21,6 +23,8 @@ pub(crate) struct Narrator {
     pub(crate) hierarchy: Hierarchy,
     /// Why events could not be written.
     pub(crate) events_error: Option<std::io::Error>,
+    /// Whether that is so.
+    is_lost: Arc<AtomicBool>,
     /// The time spent planning.
     pub(crate) planning: Duration,
     started: Option<Instant>,
@@ -29,6 +33,17 @@ pub(crate) struct Narrator {
 impl Narrator {
     pub(crate) fn new(aloud: bool, events: Option<BufWriter<File>>) -> Self {
         Self { aloud, events, ..Self::default() }
+    }
+
+    /// The same budget, which is used up when an event cannot be written: nothing more is done of which nobody would know.
+    pub(crate) fn bounds(&self, budget: Budget) -> Budget {
+        let (is_lost, before) = (Arc::clone(&self.is_lost), budget.stop);
+        let stop = move || match &before {
+            _ if is_lost.load(Ordering::Relaxed) => Some(Stop::Cancelled),
+            Some(stop) => stop(),
+            None => None,
+        };
+        Budget { stop: Some(Arc::new(stop)), ..budget }
     }
 }
 
@@ -45,6 +60,7 @@ impl Observer for Narrator {
             let written = serde_json::to_writer(&mut *file, &wire_event(event, &self.hierarchy)).map_err(Into::into);
             if let Err(error) = written.and_then(|()| writeln!(file)).and_then(|()| file.flush()) {
                 self.events_error.get_or_insert(error);
+                self.is_lost.store(true, Ordering::Relaxed);
             }
         }
         if self.aloud

@@ -9,7 +9,7 @@ use std::time::Duration;
 use clap::ValueEnum;
 use typelift::agent::{Ending, Episode, EpisodeError, Experience, Options, RunError, run};
 use typelift::bridge::Bridge;
-use typelift::model::{ActionModel, Plan, State, Stop, Symbol, Task};
+use typelift::model::{ActionModel, ParseConfig, Plan, State, Stop, Symbol, Task};
 use typelift::words::{AccountView, BrokenOffView, summary};
 use typelift::world::{FileError, Parser, Recorder, Reset, Scene, TaskFile, TraceHeader, World, WorldError};
 use typelift_kitchen::Kitchen;
@@ -97,6 +97,18 @@ struct ToDo<'a> {
     task: Task,
 }
 
+/// What goes on from task to task.
+struct Session<'a> {
+    clock: Clock,
+    interrupt: &'a Interrupt,
+    quiet: bool,
+    parse: ParseConfig,
+    options: Options,
+    world: Box<dyn World>,
+    narrator: Narrator,
+    experience: Experience,
+}
+
 /// What an environment can be asked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Operation {
@@ -124,7 +136,7 @@ impl Run {
         let parse = input.parse();
         let options = self.options(input.is_given())?;
         interrupt.heeded();
-        let mut world = self.open(&interrupt)?;
+        let world = self.open(&interrupt)?;
         if self.restart && !world.can_reset() {
             return Err(Failure::bad_input(format!("--restart: {} cannot be reset", world.name()))
                 .with_hint("Without --restart it goes on from where it is."));
@@ -140,75 +152,83 @@ impl Run {
         if let Some(folder) = &self.record {
             create_dir_all(folder).map_err(|error| FileError::from_write(folder, &error))?;
         }
-        let mut narrator = Narrator::new(!quiet && !self.planning.json, events);
-        let mut experience = Experience::new();
-        let mut out = anstream::stdout().lock();
+        let narrator = Narrator::new(!quiet && !self.planning.json, events);
+        let (interrupt, experience) = (&interrupt, Experience::new());
+        let mut session = Session { clock, interrupt, quiet, parse, options, world, narrator, experience };
         let mut all_solved = true;
-        for ToDo { path, model, reset, task } in tasks {
-            let name = task_name(path);
-            if narrator.aloud {
-                anstream::eprintln!("{HEAD}{name}{HEAD:#}");
-            }
-            narrator.planning = Duration::ZERO;
-            narrator.hierarchy = model.hierarchy.clone();
-            let budget = self.planning.limits.budget(clock, &interrupt, Some(EXPANSIONS));
-            let mut episode =
-                Episode::new(Arc::clone(&model), task.goal.clone(), options.clone(), experience.clone(), budget)
-                    .with_values(task.values);
-            let mut parser = Parser::new(model.hierarchy.clone(), parse.clone());
-            let mut confirm = |plan: &Plan| confirm(self.confirm, plan, &model, &interrupt);
-            let header = TraceHeader { task: name.clone(), goal: task.goal.required };
-            let mut recorder = self.record.as_ref().map(|folder| Recorder::new(folder, &name, header));
-            let recorded = recorder.as_mut();
-            let ran = run(&mut episode, &mut *world, &reset, &mut parser, &mut confirm, &mut narrator, recorded);
-            for file in recorder.iter().flat_map(Recorder::files).filter(|_| !quiet) {
-                anstream::eprintln!("recorded {}", file.display());
-            }
-            let was_interrupted = match &ran {
-                Ok(_) => false,
-                Err(RunError::World(_)) => interrupt.explains_failure(),
-                Err(_) => interrupt.is_set(),
-            };
-            if was_interrupted {
-                return Ok(Exit::Interrupted);
-            }
-            let is_bad_input = matches!(ran, Err(RunError::Episode(EpisodeError::Goal(_))));
-            if let (true, false, Err(error)) = (self.planning.json, is_bad_input, &ran) {
-                let view = BrokenOffView::of(&name, error.to_string());
-                writeln!(out, "{}", serde_json::to_string(&view).unwrap_or_default())?;
-            }
-            let account = ran.map_err(|error| Failure::from(error).in_file(path))?;
-            if let Some(error) = narrator.events_error.take() {
-                return Err(Failure::bad_input(format!("--events: {error}")));
-            }
-            experience = episode.experience().clone();
-            all_solved &= account.solved();
-            if self.planning.json {
-                let view = AccountView::of(&name, &account, &episode, narrator.planning.as_secs_f64());
-                writeln!(out, "{}", serde_json::to_string(&view).unwrap_or_default())?;
-            } else {
-                for line in summary(&name, &account, narrator.planning.as_millis()) {
-                    writeln!(out, "{}", painted(&line))?;
-                }
-            }
-            out.flush()?;
-            if let Ending::Stopped(stop) = account.ending
-                && let Some(advice) = what_to_try(stop)
-                && !self.planning.planner.is_given()
-            {
-                anstream::eprintln!("{HINT}hint{HINT:#}: {advice}");
-            }
-            if account.ending == Ending::Stopped(Stop::Cancelled) {
+        for to_do in tasks {
+            let Some(ending) = self.carry_out(to_do, &mut session)? else { return Ok(Exit::Interrupted) };
+            all_solved &= ending == Ending::Solved;
+            if ending == Ending::Stopped(Stop::Cancelled) {
                 break;
             }
         }
-        let closed = world.close();
+        let closed = session.world.close();
         // An interrupt stops the environment, which then cannot be closed any more.
         if interrupt.is_set() || closed.is_err() && interrupt.explains_failure() {
             return Ok(Exit::Interrupted);
         }
         closed?;
         Ok(if all_solved { Exit::Success } else { Exit::NotAchieved })
+    }
+
+    /// Carries out a task and tells of it; how it ended, or nothing if it was interrupted.
+    fn carry_out(&self, to_do: ToDo<'_>, session: &mut Session<'_>) -> Result<Option<Ending>, Failure> {
+        let Session { clock, interrupt, quiet, parse, options, world, narrator, experience } = session;
+        let ToDo { path, model, reset, task } = to_do;
+        let name = task_name(path);
+        if narrator.aloud {
+            anstream::eprintln!("{HEAD}{name}{HEAD:#}");
+        }
+        narrator.planning = Duration::ZERO;
+        narrator.hierarchy = model.hierarchy.clone();
+        let budget = narrator.bounds(self.planning.limits.budget(*clock, interrupt, Some(EXPANSIONS)));
+        let goal = task.goal.clone();
+        let mut episode = Episode::new(Arc::clone(&model), goal, options.clone(), experience.clone(), budget)
+            .with_values(task.values);
+        let mut parser = Parser::new(model.hierarchy.clone(), parse.clone());
+        let mut confirm = |plan: &Plan| confirm(self.confirm, plan, &model, interrupt);
+        let header = TraceHeader { task: name.clone(), goal: task.goal.required };
+        let mut recorder = self.record.as_ref().map(|folder| Recorder::new(folder, &name, header));
+        let recorded = recorder.as_mut();
+        let ran = run(&mut episode, &mut **world, &reset, &mut parser, &mut confirm, narrator, recorded);
+        for file in recorder.iter().flat_map(Recorder::files).filter(|_| !*quiet) {
+            anstream::eprintln!("recorded {}", file.display());
+        }
+        let was_interrupted = match &ran {
+            Ok(_) => false,
+            Err(RunError::World(_)) => interrupt.explains_failure(),
+            Err(_) => interrupt.is_set(),
+        };
+        if was_interrupted {
+            return Ok(None);
+        }
+        if let (Some(error), Some(path)) = (narrator.events_error.take(), &self.events) {
+            return Err(FileError::from_write(path, &error).into());
+        }
+        let mut out = anstream::stdout().lock();
+        let is_bad_input = matches!(ran, Err(RunError::Episode(EpisodeError::Goal(_))));
+        if let (true, false, Err(error)) = (self.planning.json, is_bad_input, &ran) {
+            let view = BrokenOffView::of(&name, error.to_string());
+            writeln!(out, "{}", serde_json::to_string(&view).unwrap_or_default())?;
+        }
+        let account = ran.map_err(|error| Failure::from(error).in_file(path))?;
+        *experience = episode.experience().clone();
+        if self.planning.json {
+            let view = AccountView::of(&name, &account, &episode, narrator.planning.as_secs_f64());
+            writeln!(out, "{}", serde_json::to_string(&view).unwrap_or_default())?;
+        } else {
+            for line in summary(&name, &account, narrator.planning.as_millis()) {
+                writeln!(out, "{}", painted(&line))?;
+            }
+        }
+        out.flush()?;
+        if let (Ending::Stopped(stop), false) = (&account.ending, *quiet || self.planning.planner.is_given())
+            && let Some(advice) = what_to_try(*stop)
+        {
+            anstream::eprintln!("{HINT}hint{HINT:#}: {advice}");
+        }
+        Ok(Some(account.ending))
     }
 
     fn read_tasks<'a>(&'a self, input: &ModelInput, quiet: bool) -> Result<Vec<ToDo<'a>>, Failure> {

@@ -1,7 +1,7 @@
 //! How an episode went.
 
-use serde::Serialize;
-use typelift_agent::{Account, Ending, Episode, Failure, StepResult, Suspect};
+use serde::{Deserialize, Serialize};
+use typelift_agent::{Account, Ending, Episode, Failure, LastResorts, StepResult, Suspect};
 use typelift_model::{GroundCall, Plan, Symbol};
 use typelift_plan::Explanation;
 
@@ -9,7 +9,7 @@ use crate::plan::plan_size;
 use crate::text::{Role, Text, count};
 
 /// The account of a task.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct AccountView {
     /// The task's name.
@@ -17,7 +17,7 @@ pub struct AccountView {
     /// Whether the goal was seen to hold.
     pub solved: bool,
     /// The [word](Ending::word) for how it ended.
-    pub ending: &'static str,
+    pub ending: String,
     /// Why it was not solved, in words.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub why: Option<String>,
@@ -41,6 +41,8 @@ pub struct AccountView {
     pub expansions: u64,
     /// Ground actions of the largest search.
     pub ground_actions: u64,
+    /// What could be given up where nothing else was left, and what became of that.
+    pub resorts: LastResorts,
     /// What failed, in order.
     pub failures: Vec<FailureView>,
     /// What is avoided after the task.
@@ -48,7 +50,7 @@ pub struct AccountView {
 }
 
 /// A step that failed.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct FailureView {
     /// The proposal's number, from 1.
@@ -59,16 +61,21 @@ pub struct FailureView {
     pub action: Symbol,
     /// What the environment was told.
     pub call: GroundCall,
+    /// The number of the action among those of the task, from 1, of the last if it was tried again; none if a person
+    /// rejected the step.
+    pub record: Option<u64>,
     /// What came of it.
     pub result: StepResult,
     /// The environment's or the person's reason, if given.
     pub reason: Option<String>,
     /// Whether the step was imagined.
     pub imagined: bool,
+    /// What is to blame, as far as was known then, and excluded therefore.
+    pub suspects: Vec<Suspect>,
 }
 
 /// Something that is avoided.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ExclusionView {
     /// What.
@@ -88,7 +95,7 @@ impl AccountView {
         Self {
             task: task.to_owned(),
             solved: account.solved(),
-            ending: account.ending.word(),
+            ending: account.ending.word().to_owned(),
             why: why_not(&account.ending),
             reasons: match &account.ending {
                 Ending::NoPlan(explanation) => Some(explanation.clone()),
@@ -102,6 +109,7 @@ impl AccountView {
             planning_seconds,
             expansions: account.expansions,
             ground_actions: account.ground_actions,
+            resorts: account.resorts.clone(),
             failures: account.failures.iter().map(FailureView::of).collect(),
             excluded: suspects
                 .into_iter()
@@ -118,9 +126,11 @@ impl FailureView {
             step: failure.step,
             action: failure.action.clone(),
             call: failure.call.clone(),
+            record: failure.record,
             result: failure.result,
             reason: failure.reason.clone(),
             imagined: failure.imagined,
+            suspects: failure.suspects.clone(),
         }
     }
 }

@@ -29,4 +29,4 @@ pub use answer::{AnswerView, ending, why_none};
 pub use event::line;
 pub use plan::{PlanView, StepView, imagined_note, numbered_steps, plan_size};
 pub use text::{Role, Span, Text, count, places};
-pub use wire::{DoneView, WireCommand, WireEvent, wire_command, wire_event};
+pub use wire::{WireCommand, WireEvent, wire_command, wire_event};

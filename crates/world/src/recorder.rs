@@ -44,6 +44,10 @@ impl Recorder {
         for number in 1.. {
             let suffix = if number == 1 { String::new() } else { format!("-{number}") };
             let path = self.folder.join(format!("{}{suffix}.jsonl", self.name));
+            // What is there already need not be tried; between programs that record at once the file system decides.
+            if path.symlink_metadata().is_ok() {
+                continue;
+            }
             match write_new_file(&path, &bytes).and_then(|()| OpenOptions::new().append(true).open(&path)) {
                 Ok(file) => {
                     self.current = Some(TraceWriter::going_on(Durable(file)));

@@ -14,8 +14,8 @@ pub struct Expected {
     pub args: Vec<Symbol>,
 }
 
-/// What came of an action, judged by comparing the states around it with what was expected. Files have it in words
-/// joined by hyphens: `as-expected`, `nothing`, `partly`, `otherwise`, `refused`, `timed-out`.
+/// What came of an action, judged by comparing the states around it with what was expected. Files, events and accounts
+/// have it in [words](Self::word) joined by hyphens.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
@@ -32,4 +32,34 @@ pub enum Verdict {
     Refused,
     /// The environment did not finish in time.
     TimedOut,
+}
+
+impl Verdict {
+    /// Every verdict.
+    pub const ALL: [Self; 6] =
+        [Self::AsExpected, Self::Nothing, Self::Partly, Self::Otherwise, Self::Refused, Self::TimedOut];
+
+    /// The word for it wherever a program reads it.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::AsExpected => "as-expected",
+            Self::Nothing => "nothing",
+            Self::Partly => "partly",
+            Self::Otherwise => "otherwise",
+            Self::Refused => "refused",
+            Self::TimedOut => "timed-out",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_have_the_words() {
+        for verdict in Verdict::ALL {
+            assert_eq!(serde_json::to_value(verdict).expect("JSON"), verdict.word());
+        }
+    }
 }

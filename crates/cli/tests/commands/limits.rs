@@ -41,7 +41,7 @@ fn each_limit_ends_a_run() {
     let folder = Folder::kitchen();
     let mut transcript = Transcript::default();
     for limit in ["--time-limit 0", "--max-expansions 1", "--memory-limit 0", "--max-proposals 0"] {
-        let command = format!("run kitchen.json K/tasks/T1.4.json --kitchen {limit} -q");
+        let command = format!("run kitchen.json K/tasks/T1.4.json --kitchen {limit}");
         let ended = folder.run(&command);
         assert_eq!(ended.code, 12, "{command}: {ended}");
         transcript.add(&command, &ended);

@@ -213,3 +213,23 @@ fn what_is_shown_is_there_for_programs() {
     let types = shown("--types");
     assert!(types.contains(&serde_json::json!({"name": "lettuce", "parents": ["vegetable"]})), "{types:?}");
 }
+
+#[cfg(target_os = "linux")]
+#[test]
+fn nothing_is_done_whose_events_cannot_be_written() {
+    let folder = Folder::kitchen();
+    std::fs::create_dir(folder.path("runs")).expect("made");
+    let command = "run kitchen.json K/tasks/T1.1.json --kitchen --events /dev/full --record runs -q";
+    let ended = folder.refuses(31, command);
+    assert!(ended.err.starts_with("error: /dev/full: "), "{ended}");
+    assert_eq!(std::fs::read_dir(folder.path("runs")).expect("a folder").count(), 0);
+}
+
+#[test]
+fn who_wants_it_quiet_gets_no_hint() {
+    let folder = Folder::kitchen();
+    let command = "run kitchen.json K/tasks/T1.1.json --kitchen --max-expansions 0";
+    assert!(folder.run(command).err.contains("hint"));
+    let quiet = folder.run(&format!("{command} -q"));
+    assert_eq!((quiet.code, quiet.err.as_str()), (12, ""), "{quiet}");
+}
