@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 use typelift::agent::Options;
-use typelift::imagine;
+use typelift::{imagine, plan};
 
 /// What is learned from the demonstrations, and whether more is imagined. In the order of the paper's table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -60,7 +60,9 @@ impl fmt::Display for Variant {
     }
 }
 
-/// How an episode goes about its task in the paper's experiments: after a failure the world is set back.
+/// How an episode goes about its task in the paper's experiments: with the paper's search alone, and after a failure the world
+/// is set back.
 pub fn paper_options(imagine: bool) -> Options {
-    Options { imagine: imagine.then(imagine::Options::default), restart: true, ..Options::default() }
+    let plan = plan::Options { strategy: plan::Strategy::OrderedLandmarks, ..plan::Options::default() };
+    Options { imagine: imagine.then(imagine::Options::default), plan, restart: true, ..Options::default() }
 }

@@ -192,7 +192,7 @@ mod tests {
         assert_eq!(error.to_string(), "types:3:4: the key `a` stands here twice");
         assert_eq!(
             read(r#"{"a": ["b", "c"], "b": "a"}"#).expect_err("a cycle").to_string(),
-            "types:1:19: the type hierarchy has a cycle: a - b - a"
+            "types:1:20: the type hierarchy has a cycle: a - b - a"
         );
         assert!(read(r#"{"a": []}"#).is_err());
     }
