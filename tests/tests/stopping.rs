@@ -1,4 +1,4 @@
-//! A search that is stopped goes on where it was: whenever it is stopped, and however often, the plans are those of a
+//! A search that is stopped goes on where it was: whenever it is stopped, and however often, the first plan is that of a
 //! search that never is.
 
 use std::sync::Arc;

@@ -99,7 +99,7 @@ impl Vocabulary {
     /// That of a domain that was read before.
     ///
     /// # Errors
-    /// [`PddlError`] if its types do not form a tree.
+    /// [`PddlError`] if its types form a cycle.
     pub(crate) fn of_domain(domain: &Domain, text: &str) -> Result<Self, PddlError> {
         let edges = domain.types.iter().map(|(child, parent)| (child.as_str(), parent.as_str()));
         let hierarchy = Hierarchy::from_edges(edges).map_err(|error| {

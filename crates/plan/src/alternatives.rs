@@ -7,7 +7,8 @@
 //! is found in the end: where it does without a call of the plan of a branch, it is a plan of a branch below.
 //!
 //! A branch that has no plan may take for ever to say so. So branches are searched in rounds, with twice the expansions each
-//! time. Some effort goes into more than one branch before the cheapest plan found is given.
+//! time. Some effort goes into more than one branch before the cheapest plan found is given. Each branch is grounded anew,
+//! one at a time; a limit of expansions does not count that, and a branch that is stopped while it is grounded begins again.
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
@@ -101,9 +102,9 @@ impl Alternatives {
 
     /// Begins to search the next branch, if there is one.
     fn begin(&mut self, asked: Asked<'_>, budget: &Budget) -> Result<bool, Stop> {
-        if self.open.is_empty() {
+        if self.open.is_empty() && !self.later.is_empty() {
             std::mem::swap(&mut self.open, &mut self.later);
-            self.round *= 2;
+            self.round = self.round.saturating_mul(2);
         }
         let Some(left_out) = self.open.front() else { return Ok(false) };
         let mut restrictions = asked.restrictions.clone();

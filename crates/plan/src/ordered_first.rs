@@ -64,10 +64,6 @@ impl Search for OrderedFirst {
         self.portfolio.report()
     }
 
-    fn improvements(&self) -> u64 {
-        self.portfolio.improvements()
-    }
-
     fn missing(&self) -> Vec<(GroundAtom, bool)> {
         self.portfolio.missing()
     }

@@ -122,10 +122,6 @@ impl Search for Stages {
         self.past + self.search.report()
     }
 
-    fn improvements(&self) -> u64 {
-        self.search.improvements()
-    }
-
     fn missing(&self) -> Vec<(GroundAtom, bool)> {
         self.search.missing()
     }

@@ -167,7 +167,7 @@ pub fn individual_name(support: &Support, model: &ActionModel) -> String {
     schema_name(&key.action, key.types.iter().map(|name| (name, is_actor(name))))
 }
 
-/// The types that cover these as well and are as low, where there are several: `, with fewer leaves than tool`.
+/// The types that cover these as well and are as low, where there are several: `, which covers no more than tool would`.
 fn rather_than(hierarchy: &Hierarchy, met: impl Iterator<Item = TypeId>, taken: TypeId) -> String {
     let met: Vec<TypeId> = met.collect();
     let covers = |ty: TypeId| met.iter().all(|&met| hierarchy.is_a(met, ty));
