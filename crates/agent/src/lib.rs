@@ -33,7 +33,7 @@ pub use experience::{Experience, Remembered};
 pub use monitor::{StepResult, compare};
 pub use objection::Objection;
 pub use options::Options;
-pub use propose::{Proposal, ProposeError, propose};
+pub use propose::{Proposal, ProposeError, Widened, propose, widened};
 pub use resort::{CountedExclusions, LastResort, LastResorts, Resort, ResortState};
 pub use run::{Confirmation, RunError, run};
 pub use saved::{EPISODE_FORMAT, RestoreError};

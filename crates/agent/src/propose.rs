@@ -156,21 +156,25 @@ pub fn propose(
 }
 
 /// A model to plan a task with.
-pub(crate) struct Widened {
+#[derive(Debug)]
+pub struct Widened {
     /// Imagined actions added if that is allowed, strict if asked for.
-    pub(crate) model: Arc<ActionModel>,
-    imagination: Imagination,
+    pub model: Arc<ActionModel>,
+    /// What was imagined.
+    pub imagination: Imagination,
     /// What can be reached with this model, if that is known: planning starts where imagination ended.
     reachable: Option<Reachable>,
     /// How often what can be reached was worked out with another model.
     groundings: u64,
 }
 
-/// The model to plan a task with.
+/// The model to plan a task with: with what is imagined for it under these restrictions, if the options allow that, and
+/// strict if they ask for it. In time of a copy of the model and, if actions may be imagined, of
+/// [imagining](typelift_imagine::imagine) them.
 ///
 /// # Errors
 /// [`Stop`] if the budget ends it.
-pub(crate) fn widened(
+pub fn widened(
     model: &ActionModel,
     task: &Task,
     restrictions: &Restrictions,

@@ -2,9 +2,10 @@
 //! planning.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
-use typelift::agent::Options;
-use typelift::imagine::{self, imagine};
+use typelift::agent::{Options, widened};
+use typelift::imagine;
 use typelift::model::{ActionModel, Budget, Task, strict};
 use typelift::plan::Restrictions;
 
@@ -49,14 +50,19 @@ impl ModelArguments {
         task: Option<&Task>,
         budget: &Budget,
     ) -> Result<ActionModel, Failure> {
-        let model = match task {
-            Some(task) if self.imagine => {
-                let nothing_failed = Restrictions::default();
-                imagine(&model, task, &nothing_failed, &imagine::Options::default(), budget)?.added_to(&model)
-            }
-            _ => model,
-        };
-        Ok(if self.not_strict { model } else { strict(&model) })
+        let Some(task) = task else { return Ok(if self.not_strict { model } else { strict(&model) }) };
+        let nothing_failed = Restrictions::default();
+        let widened = widened(&model, task, &nothing_failed, &self.agent_options(), budget)?;
+        Ok(Arc::unwrap_or_clone(widened.model))
+    }
+
+    /// How an episode may use the model.
+    fn agent_options(&self) -> Options {
+        Options {
+            imagine: self.imagine.then(imagine::Options::default),
+            strict: !self.not_strict,
+            ..Options::default()
+        }
     }
 }
 
@@ -78,11 +84,9 @@ impl PlanningOptions {
     /// How plans are made, with a model that was given as PDDL or one that was learned.
     pub(crate) fn agent_options(&self, is_given: bool) -> Result<Options, Failure> {
         Ok(Options {
-            imagine: self.model.imagine.then(imagine::Options::default),
-            strict: !self.model.not_strict,
             plan: typelift::plan::Options { strategy: self.planner.strategy(is_given), ..Default::default() },
             planner: self.planner.open()?,
-            ..Options::default()
+            ..self.model.agent_options()
         })
     }
 }
