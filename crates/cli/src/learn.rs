@@ -9,7 +9,7 @@ use typelift::learn::{self, Actor, LearnError, Options, evidence_of, learn_evide
 use typelift::model::{
     ClusterKey, LearnedModel, LiftedAtom, Observations, RefusedMerges, SourceId, Symbol, Unexplained,
 };
-use typelift::words::{count, places};
+use typelift::words::{count, places, why_unexplained};
 use typelift::world::{
     Dataset, ObjectTypes, Repeated, TrajectoryContext, Unlisted, demonstrations_at, read_dataset, write_file,
 };
@@ -346,17 +346,9 @@ fn print_counts(out: &mut impl Write, model: &LearnedModel, report: &learn::Repo
         writeln!(out, "{} not executed, or changed nothing", count(report.failures, "transition"))?;
     }
     for (reason, (times, witnesses)) in &model.evidence.total().unexplained {
-        let reason = match reason {
-            Unexplained::ObjectsChanged => "entities appeared or vanished",
-            Unexplained::PartlyObserved => "what they may have changed is unknown in part",
-            Unexplained::UnlistedKinds => "their states do not list a kind of atoms that others list",
-            Unexplained::TooLarge => "too many entities take part",
-            Unexplained::TooSymmetric => "too many entities changed alike to tell them apart",
-            Unexplained::NotExecuted => "something changed, though the action was not executed",
-            Unexplained::TimedOut => "the action was not finished in time",
-        };
         let places = places(witnesses, *times);
-        writeln!(out, "{} unexplained, {reason}: {places}", count(*times, "transition"))?;
+        let (transitions, reason) = (count(*times, "transition"), why_unexplained(*reason));
+        writeln!(out, "{transitions} unexplained, {reason}: {places}")?;
     }
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! CreateAction (Algorithm 1, line 4): an action from a cluster, and its final, named form.
+//! ExtractPreconditions and CreateAction (Algorithm 1, lines 3 and 4): an action from a cluster, and its final, named form.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -23,20 +23,21 @@ pub(crate) struct Draft {
     pub(crate) support: Vec<Support>,
 }
 
-/// The individual action of a cluster.
-pub(crate) fn create_action(
-    key: &ClusterKey,
-    cluster: &Cluster,
-    preconditions: BTreeSet<LiftedAtom>,
-    hierarchy: &Hierarchy,
-) -> Result<Draft, LearnError> {
+/// ExtractPreconditions: the atoms that held before in every observation of a cluster. Static atoms stay in; there are no
+/// negative ones.
+pub(crate) fn extract_preconditions(cluster: &Cluster) -> BTreeSet<LiftedAtom> {
+    cluster.states.always()
+}
+
+/// CreateAction: the individual action of a cluster.
+pub(crate) fn create_action(key: &ClusterKey, cluster: &Cluster, hierarchy: &Hierarchy) -> Result<Draft, LearnError> {
     let types = key.types.iter();
     let types = types.map(|name| hierarchy.id(name.as_str()).ok_or_else(|| LearnError::UnknownType(name.clone())));
     Ok(Draft {
         action: key.action.clone(),
         types: types.collect::<Result<_, _>>()?,
         call: key.call.clone(),
-        preconditions,
+        preconditions: extract_preconditions(cluster),
         adds: key.adds.iter().cloned().collect(),
         deletes: key.deletes.iter().cloned().collect(),
         support: vec![Support {

@@ -147,7 +147,7 @@ mod tests {
     use typelift_model::{Cluster, Witness};
 
     use super::*;
-    use crate::precondition::extract_preconditions;
+    use crate::draft::extract_preconditions;
 
     fn atom(i: u8) -> LiftedAtom {
         LiftedAtom::new(format!("p{i}").as_str(), Vec::new())

@@ -1,12 +1,11 @@
 //! Algorithm 1: learning individual actions from demonstrations, and generalizing them.
 //!
-//! Each step of the paper's pseudocode is a file and a function of the paper's name:
+//! Each step of the paper's pseudocode is a function of the paper's name:
 //!
 //! | step                    | file             |
 //! |-------------------------|------------------|
-//! | `ClusterLiftedEffects`  | `cluster.rs`, what a step is taken for, `outcome.rs`, and of which too much is hidden, `open.rs` |
-//! | `ExtractPreconditions`  | `precondition.rs`|
-//! | `CreateAction`          | `draft.rs`       |
+//! | `ClusterLiftedEffects`  | `cluster.rs`, with the labels of its entities, `canonical.rs`, what a step is taken for, `outcome.rs`, and of which too much is hidden, `open.rs` |
+//! | `ExtractPreconditions`, `CreateAction` | `draft.rs` |
 //! | `CreateGenPars`, `CreateGenAction` | `generalize.rs` |
 //! | `ScoreAction`           | `score.rs`       |
 //!
@@ -25,12 +24,12 @@
 //! ```
 #![deny(missing_docs)]
 
+mod canonical;
 mod cluster;
 mod draft;
 mod generalize;
 mod open;
 mod outcome;
-mod precondition;
 mod predicates;
 mod score;
 
@@ -135,8 +134,7 @@ pub fn learn(hierarchy: &Hierarchy, observations: &Observations, options: &Optio
     let observations = &*observations.settled();
     let mut actions = Vec::with_capacity(observations.clusters.len());
     for (key, cluster) in &observations.clusters {
-        let preconditions = precondition::extract_preconditions(cluster);
-        actions.push(draft::create_action(key, cluster, preconditions, hierarchy)?);
+        actions.push(draft::create_action(key, cluster, hierarchy)?);
     }
     let individual = actions.len();
     let mut counts = Counts::default();

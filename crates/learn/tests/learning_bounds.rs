@@ -96,3 +96,13 @@ fn what_depends_on_the_unknown_is_reported() {
         assert_eq!(evidence.unexplained.keys().collect::<Vec<_>>(), [&Unexplained::PartlyObserved], "{near}");
     }
 }
+
+#[test]
+fn what_the_state_does_not_have_takes_no_part() {
+    let (_, state) = look(2, forwards, |_| Vec::new());
+    let mut after = state.clone();
+    after.atoms.insert(GroundAtom::parse("seen(nobody)").expect("an atom"));
+    let evidence = observed(&state, &after);
+    assert!(evidence.clusters.is_empty());
+    assert_eq!(evidence.unexplained.keys().collect::<Vec<_>>(), [&Unexplained::ObjectsChanged]);
+}

@@ -38,6 +38,7 @@ mod open_file;
 mod parse_config;
 mod pddl_names;
 mod plan;
+mod pre_states;
 mod printable;
 mod provenance;
 mod settled;
@@ -74,12 +75,13 @@ pub use model_error::{MODEL_FORMAT, ModelFileError};
 pub use model_reader::MOST_PRECONDITIONS;
 pub use numbered_keys::numbered_keys;
 pub use observations::{
-    Cluster, ClusterKey, MOST_PARAMETERS, NegativeKey, Observations, OpenObservations, PRE_STATE_BOUND, PreStates,
-    Unexplained, WITNESS_BOUND, Witness,
+    Cluster, ClusterKey, MOST_PARAMETERS, NegativeKey, Observations, OpenObservations, Unexplained, WITNESS_BOUND,
+    Witness,
 };
 pub use parse_config::ParseConfig;
 pub use pddl_names::{NameCollision, PddlNames};
 pub use plan::{Imagined, Plan, Step};
+pub use pre_states::{PRE_STATE_BOUND, PreStates};
 pub use printable::printable;
 pub use provenance::{Provenance, Replacement, Support};
 pub use similar::{did_you_mean, nearest};

@@ -14,7 +14,8 @@ use crate::text::{count, places};
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Row {
-    /// What the row is about: `parameters`, `call`, `needs`, `adds`, `deletes`, `costs`, `merged`, `because`, `seen`.
+    /// What the row is about: of an action `parameters`, `call`, `needs`, `adds`, `deletes`, `costs`, `merged`, `because`,
+    /// `seen`; of an axiom `for all`, `if`.
     pub label: &'static str,
     /// Words, to be broken into lines between them; never empty.
     pub words: Vec<String>,

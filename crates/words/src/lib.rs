@@ -10,6 +10,7 @@
 //! | `plan.rs`        | plans and their steps                                   |
 //! | `answer.rs`      | the answer to a planning question                       |
 //! | `action.rs`      | actions and axioms of a model                           |
+//! | `learning.rs`    | what learning could make nothing of                     |
 //! | `account.rs`     | how an episode went                                     |
 //! | `event.rs`       | what happens during an episode                          |
 //! | `wire.rs`        | commands and events for programs outside                |
@@ -19,6 +20,7 @@ mod account;
 mod action;
 mod answer;
 mod event;
+mod learning;
 mod plan;
 mod text;
 mod wire;
@@ -27,6 +29,7 @@ pub use account::{AccountView, BrokenOffView, ExclusionView, FailureView, summar
 pub use action::{Description, Row, describe_action, describe_axiom, individual_name};
 pub use answer::{AnswerView, ending, why_none};
 pub use event::line;
+pub use learning::why_unexplained;
 pub use plan::{PlanView, StepView, imagined_note, numbered_steps, plan_size};
 pub use text::{Role, Span, Text, count, places};
 pub use wire::{WireCommand, WireEvent, wire_command, wire_event};
