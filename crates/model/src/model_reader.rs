@@ -212,7 +212,6 @@ fn read_action(file: ActionFile, hierarchy: &Hierarchy, clusters: &[Support]) ->
     let place = || format!("action {}", file.name);
     at_most(file.preconditions.len(), MOST_PRECONDITIONS, "preconditions", place)?;
     let n = file.parameters.len() as u32;
-    let ty = |name: &Symbol| type_id(hierarchy, name, place);
     let parameters = read_parameters(&file.parameters, hierarchy, place)?;
     let args = file
         .call
@@ -220,34 +219,7 @@ fn read_action(file: ActionFile, hierarchy: &Hierarchy, clusters: &[Support]) ->
         .iter()
         .map(|arg| read_term(arg).map_err(|message| inconsistent(place(), &message)))
         .collect::<Result<Vec<_>, _>>()?;
-    let support = |s: SupportFile| match clusters.get(s.cluster) {
-        Some(known) if known.map.len() == s.map.len() && s.map.iter().all(|&p| p < n) => {
-            Ok(Support { map: s.map, ..known.clone() })
-        }
-        Some(_) => {
-            let message = "what supports it does not map each of its cluster's parameters to one of the action's";
-            Err(inconsistent(place(), message))
-        }
-        None => Err(inconsistent(place(), &format!("there is no cluster {} in the evidence", s.cluster))),
-    };
-    let replaced = |list: Vec<(u32, Symbol, Symbol)>| {
-        list.into_iter()
-            .map(|(parameter, from, to)| Ok(Replacement { parameter, from: ty(&from)?, to: ty(&to)? }))
-            .collect::<Result<Vec<_>, ModelFileError>>()
-    };
-    let provenance = match file.provenance {
-        ProvenanceFile::Given => Provenance::Given,
-        ProvenanceFile::Demonstrated(s) => Provenance::Demonstrated(support(s)?),
-        ProvenanceFile::Generalized(s) => {
-            Provenance::Generalized(s.into_iter().map(support).collect::<Result<_, _>>()?)
-        }
-        ProvenanceFile::Imagined { from, replaced: r, goal, observations } => {
-            Provenance::Imagined { from, replaced: replaced(r)?, goal, observations }
-        }
-        ProvenanceFile::Substituted { from, replaced: r, following, observations } => {
-            Provenance::Substituted { from, replaced: replaced(r)?, following, observations }
-        }
-    };
+    let provenance = read_provenance(file.provenance, n, hierarchy, clusters, place)?;
     let mut effects: Vec<Effect> = file
         .effects
         .into_iter()
@@ -275,6 +247,45 @@ fn read_action(file: ActionFile, hierarchy: &Hierarchy, clusters: &[Support]) ->
         strict: file.strict,
         named_by_call: file.named_by_call,
         provenance,
+    })
+}
+
+/// Where an action with `n` parameters comes from.
+fn read_provenance(
+    file: ProvenanceFile,
+    n: u32,
+    hierarchy: &Hierarchy,
+    clusters: &[Support],
+    place: impl Fn() -> String + Copy,
+) -> Result<Provenance, ModelFileError> {
+    let ty = |name: &Symbol| type_id(hierarchy, name, place);
+    let support = |s: SupportFile| match clusters.get(s.cluster) {
+        Some(known) if known.map.len() == s.map.len() && s.map.iter().all(|&p| p < n) => {
+            Ok(Support { map: s.map, ..known.clone() })
+        }
+        Some(_) => {
+            let message = "what supports it does not map each of its cluster's parameters to one of the action's";
+            Err(inconsistent(place(), message))
+        }
+        None => Err(inconsistent(place(), &format!("there is no cluster {} in the evidence", s.cluster))),
+    };
+    let replaced = |list: Vec<(u32, Symbol, Symbol)>| {
+        list.into_iter()
+            .map(|(parameter, from, to)| Ok(Replacement { parameter, from: ty(&from)?, to: ty(&to)? }))
+            .collect::<Result<Vec<_>, ModelFileError>>()
+    };
+    Ok(match file {
+        ProvenanceFile::Given => Provenance::Given,
+        ProvenanceFile::Demonstrated(s) => Provenance::Demonstrated(support(s)?),
+        ProvenanceFile::Generalized(s) => {
+            Provenance::Generalized(s.into_iter().map(support).collect::<Result<_, _>>()?)
+        }
+        ProvenanceFile::Imagined { from, replaced: r, goal, observations } => {
+            Provenance::Imagined { from, replaced: replaced(r)?, goal, observations }
+        }
+        ProvenanceFile::Substituted { from, replaced: r, following, observations } => {
+            Provenance::Substituted { from, replaced: replaced(r)?, following, observations }
+        }
     })
 }
 

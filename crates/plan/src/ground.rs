@@ -146,6 +146,14 @@ fn resolve(raw: RawOp, objects: Vec<Symbol>, cost: u32, facts: &Facts, touches_g
     }
 }
 
+/// The facts that must hold in the end, and those that must not. What is never reached never holds.
+fn ground_goal(goal: &Goal, facts: &mut Facts) -> (Vec<FactId>, Vec<FactId>) {
+    let required: Vec<FactId> = goal.required.iter().filter_map(|atom| facts.intern_atom(atom)).collect();
+    let required: BTreeSet<FactId> = required.into_iter().filter(|&fact| facts.is_reached(fact)).collect();
+    let forbidden = goal.forbidden.iter().filter_map(|atom| facts.find(atom));
+    (required.into_iter().collect(), forbidden.filter(|&fact| facts.is_reached(fact)).collect())
+}
+
 impl GroundTask {
     /// Grounds a task from what can be reached of it.
     ///
@@ -162,15 +170,8 @@ impl GroundTask {
         let derived = model.derived_predicates();
         let basic = task.init.atoms.iter().filter(|atom| !derived.contains(&atom.predicate));
         let init: Vec<FactId> = basic.filter_map(|atom| reachable.facts.find(atom)).collect();
-        let required = task.goal.required.iter().filter_map(|atom| reachable.facts.intern_atom(atom));
-        let mut goal: Vec<FactId> = required.collect();
+        let (goal, negative_goal) = ground_goal(&task.goal, &mut reachable.facts);
         let facts = &reachable.facts;
-        goal.retain(|&fact| facts.is_reached(fact));
-        goal.sort_unstable();
-        goal.dedup();
-        // What is never reached never holds.
-        let negative_goal: Vec<FactId> =
-            task.goal.forbidden.iter().filter_map(|atom| facts.find(atom)).filter(|&f| facts.is_reached(f)).collect();
         let rank = schema_ranks(model, order);
         raw.sort_by(|a, b| (rank[a.schema], &a.objects).cmp(&(rank[b.schema], &b.objects)));
         let mentioned: BTreeSet<&Symbol> = task.goal.literals().flat_map(|(atom, _)| &atom.args).collect();

@@ -125,12 +125,7 @@ fn reach(
     let mut schemas: Vec<Compiled<'_>> =
         model.actions.iter().enumerate().filter_map(|(i, schema)| compiler.action(i, schema)).collect();
     schemas.extend(model.axioms.iter().enumerate().filter_map(|(i, axiom)| compiler.axiom(i, axiom)));
-    let mut triggers: Vec<Vec<(usize, usize)>> = vec![Vec::new(); facts.predicate_count()];
-    for (s, schema) in schemas.iter().enumerate() {
-        for (k, pattern) in schema.condition.positive.iter().enumerate() {
-            triggers[pattern.predicate as usize].push((s, k));
-        }
-    }
+    let triggers = triggers(&schemas, facts.predicate_count());
     let mut join = Join {
         hierarchy: &model.hierarchy,
         restrictions,
@@ -174,6 +169,17 @@ fn reach(
         }
     }
     Ok((join.facts, join.ops, join.axioms))
+}
+
+/// For each predicate, the schemas whose conditions mention it, and where.
+fn triggers(schemas: &[Compiled<'_>], predicates: usize) -> Vec<Vec<(usize, usize)>> {
+    let mut triggers = vec![Vec::new(); predicates];
+    for (s, schema) in schemas.iter().enumerate() {
+        for (k, pattern) in schema.condition.positive.iter().enumerate() {
+            triggers[pattern.predicate as usize].push((s, k));
+        }
+    }
+    triggers
 }
 
 /// An effect whose condition is not reached yet.

@@ -205,20 +205,7 @@ impl<'a> Finder<'a> {
 
     /// Adds the groups that a candidate has; the candidates that may be groups where it is none.
     fn check(&self, candidate: &Candidate, groups: &mut BTreeSet<Vec<FactId>>) -> Vec<Candidate> {
-        let mut instance_of = vec![NO_INSTANCE; self.task.fact_count()];
-        let mut instances: HashMap<Vec<ObjectId>, u32> = HashMap::default();
-        let mut members: Vec<Vec<FactId>> = Vec::new();
-        for part in candidate {
-            for &fact in self.by_predicate.get(&part.predicate).into_iter().flatten() {
-                let parameters = part.parameters(self.task.facts().args(fact));
-                let instance = *instances.entry(parameters).or_insert_with(|| {
-                    members.push(Vec::new());
-                    members.len() as u32 - 1
-                });
-                instance_of[fact.index()] = instance;
-                members[instance as usize].push(fact);
-            }
-        }
+        let (instance_of, members) = self.instances(candidate);
         let mut weight = vec![0_u32; members.len()];
         for fact in &self.initially {
             if let Some(weight) = weight.get_mut(instance_of[fact.index()] as usize) {
@@ -269,6 +256,25 @@ impl<'a> Finder<'a> {
             }
         }
         refined.into_iter().collect()
+    }
+
+    /// Of each fact the number of its instance of the candidate, or [`NO_INSTANCE`]; of each instance its facts.
+    fn instances(&self, candidate: &Candidate) -> (Vec<u32>, Vec<Vec<FactId>>) {
+        let mut instance_of = vec![NO_INSTANCE; self.task.fact_count()];
+        let mut instances: HashMap<Vec<ObjectId>, u32> = HashMap::default();
+        let mut members: Vec<Vec<FactId>> = Vec::new();
+        for part in candidate {
+            for &fact in self.by_predicate.get(&part.predicate).into_iter().flatten() {
+                let parameters = part.parameters(self.task.facts().args(fact));
+                let instance = *instances.entry(parameters).or_insert_with(|| {
+                    members.push(Vec::new());
+                    members.len() as u32 - 1
+                });
+                instance_of[fact.index()] = instance;
+                members[instance as usize].push(fact);
+            }
+        }
+        (instance_of, members)
     }
 
     /// Adds to a candidate what a production consumes.

@@ -244,6 +244,14 @@ impl Lazy {
         });
     }
 
+    /// Makes the initial state the first node.
+    fn insert_initial_state(&mut self, space: &Space) -> StateId {
+        self.values.copy_from_slice(&space.task.init);
+        let (id, _) = self.registry.insert(&self.values);
+        self.new_node(Node { parent: id, action: 0, g: 0, cost: 0, is_dead_end: false });
+        id
+    }
+
     fn new_node(&mut self, node: Node) {
         self.nodes.push(node);
         self.memories.resize(self.nodes.len() * self.memory_len, 0);
@@ -257,9 +265,7 @@ impl Search for Lazy {
         let mut poll = Poll::new(budget);
         let mut keys = Vec::new();
         if self.nodes.is_empty() {
-            self.values.copy_from_slice(&space.task.init);
-            let (id, _) = self.registry.insert(&self.values);
-            self.new_node(Node { parent: id, action: 0, g: 0, cost: 0, is_dead_end: false });
+            let id = self.insert_initial_state(space);
             if space.task.is_goal(&self.values) && cost_bound.is_none_or(|bound| bound > 0) {
                 return Found::Plan(space.plan(&[]));
             }
