@@ -117,7 +117,8 @@ pub fn imagine_from(
     let context = Context { model, task, restrictions, reached: reachable.atoms_by_predicate() };
     let mut met: BTreeSet<GroundAtom> = queue.iter().cloned().collect();
     let mut imagination = Imagination::default();
-    let mut imagined = Vec::new();
+    let mut names = UniqueNames::new(model.actions.iter().map(|action| action.name.clone()));
+    let mut known: Vec<ActionSchema> = Vec::new();
     while let Some(atom) = queue.pop_front() {
         if let Some(stop) = budget.stopped() {
             return Err(stop);
@@ -134,15 +135,10 @@ pub fn imagine_from(
                 }
             }
             if proposal.is_new() {
-                imagined.push(proposal.into_schema(&atom));
+                add_if_new(proposal.into_schema(&atom), model, &mut known, &mut names);
             }
         }
         imagination.unreachable.push(atom);
-    }
-    let mut names = UniqueNames::new(model.actions.iter().map(|action| action.name.clone()));
-    let mut known: Vec<ActionSchema> = Vec::new();
-    for action in imagined {
-        add_if_new(action, model, &mut known, &mut names);
     }
     for index in 0..known.len() {
         let action = known[index].clone();
