@@ -116,31 +116,41 @@ fn assert_same(a: &Path, b: &Path) {
 /// `TYPELIFT_KILLS` has it killed another number of times.
 #[test]
 fn killed_again_and_again_it_is_as_if_undisturbed() {
-    let kills: u32 = std::env::var("TYPELIFT_KILLS").map_or(10, |kills| kills.parse().expect("a number"));
+    let kills: usize = std::env::var("TYPELIFT_KILLS").map_or(10, |kills| kills.parse().expect("a number"));
     let folder = Folder::new();
     let command = format!("{TABLE} --runs 4 --jobs 2 -q -o");
     folder.run(&format!("{command} undisturbed")).succeeds();
-    // Delays in milliseconds that look random and are not.
-    let mut delay: u64 = 7;
     let mut killed = 0;
-    for _ in 0..kills {
-        delay = (delay * 73 + 41) % 331;
-        let mut child = program(&format!("{command} killed"));
-        child.current_dir(folder.path("")).stdout(Stdio::null()).stderr(Stdio::piped());
-        let mut child = child.spawn().expect("the program starts");
-        std::thread::sleep(Duration::from_millis(delay));
-        // What has ended by itself cannot be killed, and need not be.
-        let _ = child.kill();
-        let ended = child.wait_with_output().expect("it ends");
-        if ended.status.success() {
-            continue;
+    while killed < kills {
+        // By progress, not by the clock: how fast the machine is does not matter.
+        let more_lines = killed % 5;
+        if killed_after(&folder, &format!("{command} killed"), "killed/runs.jsonl", more_lines) {
+            killed += 1;
+        } else {
+            assert_same(&folder.path("undisturbed"), &folder.path("killed"));
+            fs::remove_dir_all(folder.path("killed")).expect("it can be removed");
         }
-        killed += 1;
-        assert_eq!(ended.status.code(), None, "{}", String::from_utf8_lossy(&ended.stderr));
     }
-    assert!(killed > 0, "it was never killed");
     folder.run(&format!("{command} killed")).succeeds();
     assert_same(&folder.path("undisturbed"), &folder.path("killed"));
+}
+
+/// Whether the command was killed before it ended, which it is once its log has so many more lines than at the start.
+fn killed_after(folder: &Folder, command: &str, log: &str, more_lines: usize) -> bool {
+    let lines = || fs::read_to_string(folder.path(log)).map(|text| text.lines().count()).unwrap_or_default();
+    let until = lines() + more_lines;
+    let mut child = program(command);
+    child.current_dir(folder.path("")).stdout(Stdio::null()).stderr(Stdio::piped());
+    let mut child = child.spawn().expect("the program starts");
+    while lines() < until && child.try_wait().expect("a child").is_none() {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    // What has ended by itself cannot be killed, and need not be.
+    let _ = child.kill();
+    let ended = child.wait_with_output().expect("it ends");
+    let text = String::from_utf8_lossy(&ended.stderr);
+    assert!(matches!(ended.status.code(), None | Some(0)), "{text}");
+    !ended.status.success()
 }
 
 #[cfg(unix)]
