@@ -58,14 +58,14 @@ fn dependencies(manifest: &str, called: &str) -> Vec<String> {
 #[test]
 fn imports_go_one_way() {
     let crates = root().join("crates");
-    let mut rooms: Vec<String> = fs::read_dir(&crates)
+    let mut members: Vec<String> = fs::read_dir(&crates)
         .expect("the crates")
         .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
         .collect();
-    rooms.sort();
+    members.sort();
     let mut known: Vec<&str> = ALLOWED.iter().map(|(name, _)| *name).collect();
     known.sort_unstable();
-    assert_eq!(rooms, known, "a new room needs a line in the table of allowed imports");
+    assert_eq!(members, known, "a new crate needs a line in the table of allowed imports");
     for (name, allowed) in ALLOWED {
         let manifest = read(&crates.join(name).join("Cargo.toml"));
         for dependency in
@@ -73,7 +73,8 @@ fn imports_go_one_way() {
         {
             assert!(allowed.contains(&dependency.as_str()), "{name} may not depend on {dependency}");
         }
-        let in_tests = ALLOWED_IN_TESTS.iter().find(|(room, _)| *room == name).map_or(&[][..], |(_, besides)| besides);
+        let in_tests =
+            ALLOWED_IN_TESTS.iter().find(|(member, _)| *member == name).map_or(&[][..], |(_, besides)| besides);
         for dependency in dependencies(&manifest, "dev-dependencies") {
             let known = allowed.contains(&dependency.as_str()) || in_tests.contains(&dependency.as_str());
             assert!(known, "tests of {name} may not depend on {dependency}");
@@ -86,9 +87,9 @@ fn sources(name: &str) -> PathBuf {
     root().join("crates").join(name).join("src")
 }
 
-fn assert_absent(rooms: &[&str], words: &[&str], why: &str) {
-    for room in rooms {
-        for path in source_files(&sources(room)) {
+fn assert_absent(members: &[&str], words: &[&str], why: &str) {
+    for member in members {
+        for path in source_files(&sources(member)) {
             let code = Code::read(&path).text();
             for word in words {
                 assert!(!code.contains(word), "{}: `{word}`: {why}", path.display());
@@ -110,7 +111,7 @@ const WITH_A_CLOCK: [&str; 2] = ["bridge", "lab"];
 
 #[test]
 fn no_kitchen_word_outside_the_kitchen() {
-    let rooms: Vec<&str> = LIBRARIES.into_iter().filter(|room| !OF_THE_KITCHEN.contains(room)).collect();
+    let members: Vec<&str> = LIBRARIES.into_iter().filter(|member| !OF_THE_KITCHEN.contains(member)).collect();
     let words = [
         "kitchen",
         "food",
@@ -129,7 +130,7 @@ fn no_kitchen_word_outside_the_kitchen() {
         "agent_1",
         "content_holds",
     ];
-    assert_absent(&rooms, &words, "a kitchen word");
+    assert_absent(&members, &words, "a kitchen word");
 }
 
 #[test]
@@ -139,16 +140,16 @@ fn libraries_do_not_print() {
 
 #[test]
 fn few_know_the_time() {
-    let rooms: Vec<&str> = LIBRARIES.into_iter().filter(|room| !WITH_A_CLOCK.contains(room)).collect();
+    let members: Vec<&str> = LIBRARIES.into_iter().filter(|member| !WITH_A_CLOCK.contains(member)).collect();
     let words = ["Instant::now", "SystemTime", "env::var", "thread_rng", "static mut", "thread_local!"];
-    assert_absent(&rooms, &words, "hidden input");
+    assert_absent(&members, &words, "hidden input");
 }
 
 #[test]
 fn libraries_deny_missing_docs() {
-    for room in LIBRARIES {
-        let lib = root().join("crates").join(room).join("src/lib.rs");
-        assert!(read(&lib).contains("#![deny(missing_docs)]"), "{room}");
+    for member in LIBRARIES {
+        let lib = root().join("crates").join(member).join("src/lib.rs");
+        assert!(read(&lib).contains("#![deny(missing_docs)]"), "{member}");
     }
 }
 
@@ -174,13 +175,13 @@ const ORDER_IN_PDDL: &[&str] = &[
 #[test]
 fn modules_of_plan_and_pddl_have_an_order() {
     let mut against = BTreeSet::new();
-    for (room, order) in [("plan", ORDER_IN_PLAN), ("pddl", ORDER_IN_PDDL)] {
-        let imports = Imports::of(&sources(room));
+    for (member, order) in [("plan", ORDER_IN_PLAN), ("pddl", ORDER_IN_PDDL)] {
+        let imports = Imports::of(&sources(member));
         let known: BTreeSet<String> = order.iter().map(|module| (*module).to_owned()).collect();
-        assert_eq!(imports.modules[""], known, "{room}: each module has its place in the list");
+        assert_eq!(imports.modules[""], known, "{member}: each module has its place in the list");
         let place = |module: &String| order.iter().position(|known| known == module);
         let upward = imports.folders[""].iter().filter(|(importer, imported)| place(importer) < place(imported));
-        against.extend(upward.map(|(importer, imported)| (room, importer.clone(), imported.clone())));
+        against.extend(upward.map(|(importer, imported)| (member, importer.clone(), imported.clone())));
     }
     assert_eq!(against, BTreeSet::new(), "each imports those before it only");
 }
@@ -188,12 +189,12 @@ fn modules_of_plan_and_pddl_have_an_order() {
 #[test]
 fn no_modules_import_each_other_in_a_circle() {
     let mut found = Vec::new();
-    for (room, _) in ALLOWED {
-        let imports = Imports::of(&sources(room));
+    for (member, _) in ALLOWED {
+        let imports = Imports::of(&sources(member));
         for folder in imports.folders.keys() {
             let circle: BTreeSet<String> = imports.circles(folder).into_iter().map(|(importer, _)| importer).collect();
             if !circle.is_empty() {
-                found.push(format!("{room}/{folder}: {circle:?}"));
+                found.push(format!("{member}/{folder}: {circle:?}"));
             }
         }
     }

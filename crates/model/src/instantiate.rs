@@ -1,4 +1,5 @@
-//! From a lifted to a ground action.
+//! From a lifted to a ground action, plainly, as `check` and `agent` see it. `plan` has its own,
+//! packed, and since its plans are replayed by this one, a mistake in either is found by the other.
 
 use std::collections::BTreeMap;
 
