@@ -3,9 +3,11 @@
 //! One file, or one folder, a subcommand. Data goes to standard output, everything else to standard error. Every way to end has its
 //! exit code, in [`exit`].
 
+mod check_env;
 mod columns;
 mod confirm;
 mod demo;
+mod environment;
 mod exit;
 mod export;
 mod failure;
@@ -60,6 +62,7 @@ enum Command {
     Plan(plan::Plan),
     Export(export::Export),
     Run(run::Run),
+    CheckEnv(check_env::CheckEnv),
     Validate(validate::Validate),
     Pddl(pddl::Pddl),
     Kitchen(kitchen::Kitchen),
@@ -86,6 +89,7 @@ fn main() -> ExitCode {
         Command::Plan(plan) => plan.run(clock, quiet),
         Command::Export(export) => export.run(clock, quiet),
         Command::Run(run) => run.run(clock, quiet),
+        Command::CheckEnv(check_env) => check_env.run(),
         Command::Validate(validate) => validate.run(clock, quiet),
         Command::Pddl(pddl) => pddl.run(quiet),
         Command::Kitchen(kitchen) => kitchen.run(quiet),

@@ -6,15 +6,14 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
-use clap::ValueEnum;
 use typelift::agent::{Ending, Episode, EpisodeError, Experience, Options, RunError, run};
-use typelift::bridge::Bridge;
 use typelift::model::{ActionModel, ParseConfig, Plan, State, Stop, Symbol, Task};
 use typelift::words::{AccountView, BrokenOffView, summary};
-use typelift::world::{FileError, Parser, Recorder, Reset, Scene, TaskFile, TraceHeader, World, WorldError};
+use typelift::world::{FileError, Parser, Recorder, Reset, Scene, TaskFile, TraceHeader, World};
 use typelift_kitchen::Kitchen;
 
 use crate::confirm::{Which, confirm};
+use crate::environment::{Timeouts, start};
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::{ModelInput, TaskInput, task_name};
@@ -22,7 +21,7 @@ use crate::limits::{Clock, Interrupt, what_to_try};
 use crate::narrate::Narrator;
 use crate::overwriting::{Output, keep_inputs};
 use crate::planning_options::PlanningOptions;
-use crate::quantities::{parse_duration, parse_whole};
+use crate::quantities::parse_whole;
 use crate::style::{HEAD, HINT, painted};
 
 /// Expansions of one search, unless the user says otherwise: an agent that acts must not think for ever.
@@ -30,6 +29,7 @@ const EXPANSIONS: u64 = 200_000;
 
 /// Carry out tasks in an environment
 #[derive(Debug, clap::Args)]
+#[command(mut_arg("env_timeout", |timeout| timeout.requires("env")))]
 #[command(group = clap::ArgGroup::new("environment").required(true).args(["kitchen", "env"]))]
 #[command(after_help = "Examples:
   typelift run kitchen.json K/tasks/T4.1.json --kitchen --imagine
@@ -57,9 +57,8 @@ pub(crate) struct Run {
     /// Act in the environment that this command is: it speaks env/1 on its standard input and output
     #[arg(long, value_name = "COMMAND", value_parser = clap::builder::NonEmptyStringValueParser::new())]
     env: Option<String>,
-    /// Wait so long for an answer: hello (10s), reset (60s), observe (10s), act (300s), close (2s)
-    #[arg(long, value_name = "OP=TIME,…", value_delimiter = ',', value_parser = parse_timeout, requires = "env")]
-    env_timeout: Vec<(Operation, Duration)>,
+    #[command(flatten)]
+    timeouts: Timeouts,
     /// The seed that the environment is reset with, instead of the task's
     #[arg(long, value_name = "N", value_parser = parse_whole, allow_negative_numbers = true)]
     seed: Option<u64>,
@@ -107,23 +106,6 @@ struct Session<'a> {
     world: Box<dyn World>,
     narrator: Narrator,
     experience: Experience,
-}
-
-/// What an environment can be asked.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Operation {
-    Hello,
-    Reset,
-    Observe,
-    Act,
-    Close,
-}
-
-fn parse_timeout(text: &str) -> Result<(Operation, Duration), String> {
-    let (operation, time) = text.split_once('=').ok_or("write for example hello=60s,act=10m")?;
-    let operation = Operation::from_str(operation, true)
-        .map_err(|_| format!("there is no `{operation}`; there are hello, reset, observe, act and close"))?;
-    Ok((operation, parse_duration(time)?))
 }
 
 impl Run {
@@ -249,26 +231,10 @@ impl Run {
     }
 
     fn open(&self, interrupt: &Interrupt) -> Result<Box<dyn World>, Failure> {
-        let Some(command) = &self.env else { return Ok(Box::new(Kitchen::new())) };
-        let mut limits = typelift::bridge::Options::default();
-        for &(operation, limit) in &self.env_timeout {
-            match operation {
-                Operation::Hello => limits.hello = limit,
-                Operation::Reset => limits.reset = limit,
-                Operation::Observe => limits.observe = limit,
-                Operation::Act => limits.act = limit,
-                Operation::Close => limits.close = limit,
-            }
-        }
-        let stderr = |line: &str| anstream::eprintln!("{line}");
-        let bridge = Bridge::spawn_stoppable(command, limits, stderr, |stopper| {
-            interrupt.on_raised(move || stopper.stop());
-        });
-        match bridge {
-            Ok(bridge) => Ok(Box::new(bridge)),
-            Err(_) if interrupt.explains_failure() => Err(Failure::new(Exit::Interrupted, "stopped")),
-            Err(error) => Err(WorldError::from(error).into()),
-        }
+        Ok(match &self.env {
+            None => Box::new(Kitchen::new()),
+            Some(command) => Box::new(start(command, &self.timeouts, interrupt)?),
+        })
     }
 
     fn options(&self, is_given: bool) -> Result<Options, Failure> {

@@ -20,6 +20,7 @@ mod account;
 mod action;
 mod answer;
 mod event;
+mod inspection;
 mod learning;
 mod plan;
 mod text;
@@ -29,6 +30,7 @@ pub use account::{AccountView, BrokenOffView, ExclusionView, FailureView, summar
 pub use action::{Description, Row, describe_action, describe_axiom, individual_name};
 pub use answer::{AnswerView, ending, why_none};
 pub use event::line;
+pub use inspection::{FindingView, InspectionView, TriedView, inspection_lines};
 pub use learning::why_unexplained;
 pub use plan::{PlanView, StepView, imagined_note, numbered_steps, plan_size};
 pub use text::{Role, Span, Text, count, places};

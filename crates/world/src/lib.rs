@@ -8,6 +8,7 @@ mod entity_line;
 mod environment;
 mod file_error;
 mod hierarchy_file;
+mod inspection;
 mod json;
 mod line_reader;
 mod object_types;
@@ -33,6 +34,7 @@ pub use dataset_file::{any_trace_from, dataset_from, demonstrations_at, read_any
 pub use environment::{Acted, Reset, World, WorldError, instance_of};
 pub use file_error::FileError;
 pub use hierarchy_file::{TypesFile, hierarchy_from_text, read_hierarchy, read_types};
+pub use inspection::{Change, Finding, InspectOptions, Inspection, Problem, Tried, inspect};
 pub use line_reader::LINE_LIMIT;
 pub use object_types::ObjectTypes;
 pub use parse::{ParseError, ParseErrorKind, Parser};

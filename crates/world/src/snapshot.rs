@@ -89,3 +89,13 @@ pub enum Scene {
         unknown: BTreeSet<Pattern<Symbol>>,
     },
 }
+
+impl Scene {
+    /// Every entity with its type's name, in the order of the scene.
+    pub fn entities_and_types(&self) -> Vec<(&Symbol, &Symbol)> {
+        match self {
+            Self::Snapshot(snapshot) => snapshot.entities.iter().map(|entity| (&entity.id, &entity.ty)).collect(),
+            Self::Symbolic { objects, .. } => objects.iter().collect(),
+        }
+    }
+}

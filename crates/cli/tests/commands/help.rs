@@ -12,6 +12,7 @@ fn every_command_has_help() {
         "plan",
         "export",
         "run",
+        "check-env",
         "validate",
         "pddl",
         "pddl check",

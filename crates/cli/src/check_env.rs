@@ -1,0 +1,94 @@
+//! `typelift check-env`.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use typelift::model::{GroundAtom, GroundCall, ParseConfig, Symbol};
+use typelift::words::{InspectionView, inspection_lines};
+use typelift::world::{InspectOptions, Reset, World, inspect, read_hierarchy, read_task};
+
+use crate::environment::{Timeouts, start};
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::limits::Interrupt;
+use crate::quantities::parse_whole;
+use crate::style::painted;
+
+/// Try an environment, and say what would hurt learning
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  typelift check-env 'python3 robot.py'
+  typelift check-env 'python3 robot.py' --types types.pddl --task task.json
+  typelift check-env 'python3 robot.py' --act 'pick(arm_1, cup_1)'
+
+The environment is reset twice alike, if it can be reset, and observed several
+times in a row; then the actions of --act are carried out. What is compared is
+what learning sees: flicker, states that have not settled, entities that come
+and go, lists where an id is meant, words with too many values, numbers with few.
+
+Exit codes: 0 nothing hurts, 12 something hurts, 31 bad input, 35 the
+environment failed, 36 wrong usage. What only may hurt leaves the code as it is.")]
+pub(crate) struct CheckEnv {
+    /// The environment: a program that speaks env/1 on its standard input and output
+    #[arg(value_name = "COMMAND", value_parser = clap::builder::NonEmptyStringValueParser::new())]
+    command: String,
+    /// The types that its entities are to have: PDDL or JSON, as for `learn`
+    #[arg(long, value_name = "FILE")]
+    types: Option<PathBuf>,
+    /// Leave out these attributes and relations, as `learn` does: NAME, or TYPE.NAME
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
+    ignore: Vec<String>,
+    /// Set it up as this task says
+    #[arg(long, value_name = "TASK")]
+    task: Option<PathBuf>,
+    /// The seed that it is reset with [default: the task's, or 0]
+    #[arg(long, value_name = "N", value_parser = parse_whole, allow_negative_numbers = true)]
+    seed: Option<u64>,
+    /// Carry out this action; may be given several times, and they are carried out in turn
+    #[arg(long, value_name = "ACTION", value_parser = parse_call)]
+    act: Vec<GroundCall>,
+    /// Print what was found as one JSON object
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    timeouts: Timeouts,
+}
+
+/// Reads `pick(arm_1, cup_1)`, which is written as an atom is.
+fn parse_call(text: &str) -> Result<GroundCall, String> {
+    let atom = GroundAtom::parse(text).map_err(|error| format!("{error}; write for example pick(arm_1, cup_1)"))?;
+    Ok(GroundCall { name: atom.predicate, args: atom.args })
+}
+
+impl CheckEnv {
+    pub(crate) fn run(&self) -> Result<Exit, Failure> {
+        let interrupt = Interrupt::install()?;
+        let hierarchy = self.types.as_deref().map(read_hierarchy).transpose()?;
+        let task = self.task.as_deref().map(read_task).transpose()?.unwrap_or_default();
+        let options = InspectOptions {
+            hierarchy,
+            parse: ParseConfig { ignore: self.ignore.iter().map(|name| Symbol::new(name)).collect() },
+            reset: Reset { seed: self.seed.or(task.seed).unwrap_or(0), scenario: task.scenario },
+            calls: self.act.clone(),
+        };
+        interrupt.heeded();
+        let mut world = start(&self.command, &self.timeouts, &interrupt)?;
+        let inspected = inspect(&mut world, &options).and_then(|inspection| world.close().map(|()| inspection));
+        if inspected.is_err() && interrupt.explains_failure() {
+            return Ok(Exit::Interrupted);
+        }
+        let inspection = inspected?;
+        let (name, can_reset) = (world.name(), world.can_reset());
+        let mut out = anstream::stdout().lock();
+        if self.json {
+            let view = InspectionView::of(&name, can_reset, &inspection);
+            writeln!(out, "{}", serde_json::to_string(&view).unwrap_or_default())?;
+        } else {
+            for line in inspection_lines(&name, can_reset, &inspection) {
+                writeln!(out, "{}", painted(&line))?;
+            }
+        }
+        let hurts = inspection.findings.iter().any(|finding| finding.problem.is_certain());
+        Ok(if hurts { Exit::NotAchieved } else { Exit::Success })
+    }
+}

@@ -1,0 +1,280 @@
+//! Tries an environment before anything is learned in it: is what it shows what learning can use?
+//!
+//! An adapter may keep to the protocol and still show nothing that can be learned from: relations that flicker, a state that
+//! has not settled, words where numbers are meant. Nothing of that is an error in any one state; it shows when several are
+//! compared.
+//!
+//! | file           | what it looks at                                              |
+//! |----------------|---------------------------------------------------------------|
+//! | `problem.rs`   | what can be wrong, in words, and what to do about it          |
+//! | `comparing.rs` | two states that should be the same                            |
+//! | `sightings.rs` | the values that attributes and relations have in all scenes    |
+
+mod comparing;
+mod problem;
+mod sightings;
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use typelift_model::{GroundCall, Hierarchy, ParseConfig, ROOT, State, Symbol, nearest};
+
+use crate::{Parser, Reset, Scene, World, WorldError};
+use comparing::compare;
+use sightings::Sightings;
+
+pub use problem::{Change, Finding, Problem};
+
+/// How often the world is observed in a row. What flickers seldom does so at the first look.
+const OBSERVATIONS: usize = 5;
+
+/// What an environment is tried with.
+#[derive(Debug, Clone, Default)]
+pub struct InspectOptions {
+    /// The types that its entities are to have; any, if there are none.
+    pub hierarchy: Option<Hierarchy>,
+    /// What is left out of the states, as in learning.
+    pub parse: ParseConfig,
+    /// How it is set up.
+    pub reset: Reset,
+    /// Actions to carry out, in turn, after everything else.
+    pub calls: Vec<GroundCall>,
+}
+
+/// What was seen of an environment, and what is wrong with it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Inspection {
+    /// Its entities in the first state.
+    pub entities: usize,
+    /// The types that they have.
+    pub types: BTreeSet<Symbol>,
+    /// The predicates of all states.
+    pub predicates: BTreeSet<Symbol>,
+    /// What came of the actions.
+    pub tried: Vec<Tried>,
+    /// What is wrong, each thing once.
+    pub findings: Vec<Finding>,
+}
+
+/// What came of an action.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Tried {
+    /// The action.
+    pub call: GroundCall,
+    /// Whether the environment says that it did it.
+    pub executed: bool,
+    /// Why not, if it says so.
+    pub reason: Option<String>,
+    /// What it changed, without what changes by itself; nothing is known where a state could not be read.
+    pub change: Option<Change>,
+}
+
+/// Sets an environment up twice alike, if it can be set up, observes it several times in a row, carries out the calls, and
+/// says what of all this would hurt learning. The cost is that of comparing these states.
+///
+/// # Errors
+/// [`WorldError`] if the environment itself fails.
+pub fn inspect(world: &mut dyn World, options: &InspectOptions) -> Result<Inspection, WorldError> {
+    let mut inspector = Inspector::new(options);
+    let mut set_up = Vec::new();
+    if world.can_reset() {
+        for place in ["reset", "second reset"] {
+            let scene = world.reset(&options.reset)?;
+            set_up.push(inspector.look(place, &scene));
+        }
+    }
+    let mut observed = Vec::new();
+    for _ in 0..OBSERVATIONS {
+        let scene = world.observe()?;
+        observed.push(inspector.look("observe", &scene));
+    }
+    inspector.compare_observations(&observed);
+    if let [first, second] = set_up.as_slice() {
+        inspector.compare_resets(options.reset.seed, first.as_ref(), second.as_ref());
+        inspector.compare_settled("reset", second.as_ref(), observed[0].as_ref());
+    }
+    let mut before = observed.pop().flatten();
+    for call in &options.calls {
+        before = inspector.try_call(world, call, before.as_ref())?;
+    }
+    Ok(inspector.finish())
+}
+
+/// What is gathered while an environment is tried.
+struct Inspector {
+    parser: Parser,
+    /// The hierarchy that was asked for.
+    hierarchy: Option<Hierarchy>,
+    sightings: Sightings,
+    /// Types met so far, each with whether the hierarchy has it.
+    types: BTreeMap<Symbol, bool>,
+    types_of_entities: BTreeMap<Symbol, Symbol>,
+    entities: Option<usize>,
+    predicates: BTreeSet<Symbol>,
+    /// Attributes and relations that change by themselves: they say nothing about what else changes.
+    flickering: BTreeSet<Symbol>,
+    tried: Vec<Tried>,
+    findings: Vec<Finding>,
+}
+
+impl Inspector {
+    fn new(options: &InspectOptions) -> Self {
+        let known = options.hierarchy.clone().unwrap_or_default();
+        Self {
+            parser: Parser::new(known, options.parse.clone()),
+            hierarchy: options.hierarchy.clone(),
+            sightings: Sightings::default(),
+            types: BTreeMap::new(),
+            types_of_entities: BTreeMap::new(),
+            entities: None,
+            predicates: BTreeSet::new(),
+            flickering: BTreeSet::new(),
+            tried: Vec::new(),
+            findings: Vec::new(),
+        }
+    }
+
+    fn find(&mut self, place: &str, problem: Problem) {
+        let finding = Finding { place: place.to_owned(), problem };
+        if !self.findings.iter().any(|known| known.problem == finding.problem) {
+            self.findings.push(finding);
+        }
+    }
+
+    /// Looks at a scene by itself; the state that it shows, if it shows one.
+    fn look(&mut self, place: &str, scene: &Scene) -> Option<State> {
+        let entities = scene.entities_and_types();
+        self.entities.get_or_insert(entities.len());
+        for (entity, ty) in entities {
+            self.note_type(place, entity, ty);
+        }
+        if let Scene::Snapshot(snapshot) = scene {
+            self.sightings.note(snapshot, self.parser.config());
+        }
+        match self.parser.parse(scene) {
+            Ok(state) => {
+                self.predicates.extend(state.atoms.iter().map(|atom| atom.predicate.clone()));
+                Some(state)
+            }
+            Err(error) => {
+                self.find(place, Problem::NotAState(error));
+                None
+            }
+        }
+    }
+
+    /// Notes an entity's type. One that the hierarchy lacks is found once, and taken into it: the rest can then be judged.
+    fn note_type(&mut self, place: &str, entity: &Symbol, ty: &Symbol) {
+        match self.types_of_entities.get(entity) {
+            Some(before) if before != ty => {
+                let (entity, before, now) = (entity.clone(), before.clone(), ty.clone());
+                self.find(place, Problem::TypeChanges { entity, before, now });
+            }
+            Some(_) => {}
+            None => {
+                self.types_of_entities.insert(entity.clone(), ty.clone());
+            }
+        }
+        if self.types.contains_key(ty) {
+            return;
+        }
+        let known = self.parser.hierarchy().id(ty.as_str()).is_some();
+        self.types.insert(ty.clone(), known);
+        if known {
+            return;
+        }
+        if let Some(hierarchy) = &self.hierarchy {
+            let names: Vec<Symbol> = hierarchy.types().map(|known| hierarchy.name(known).clone()).collect();
+            let near = nearest(ty.as_str(), &names).cloned();
+            self.find(place, Problem::UnknownType { ty: ty.clone(), entity: entity.clone(), near });
+        }
+        // A name that no type can have is told by the parser.
+        if let Ok(hierarchy) = self.parser.hierarchy().extended([(ty.as_str(), ROOT)]) {
+            self.parser = Parser::new(hierarchy, self.parser.config().clone());
+        }
+    }
+
+    /// Nothing was done between these observations.
+    fn compare_observations(&mut self, observed: &[Option<State>]) {
+        let changes = observed.windows(2).filter_map(|pair| match pair {
+            [Some(before), Some(after)] => compare(before, after, &BTreeSet::new()),
+            _ => None,
+        });
+        let changes: Vec<Change> = changes.collect();
+        let sources = self.parser.attributes();
+        let names = changes.iter().flat_map(Change::predicates).filter_map(|predicate| sources.get(predicate));
+        self.flickering = names.cloned().collect();
+        let names = self.flickering.clone();
+        if let Some(change) = changes.into_iter().next() {
+            self.find("observe", Problem::Flickers { names, change });
+        }
+    }
+
+    /// The predicates, met so far, of what changes by itself.
+    fn flickering_predicates(&self) -> BTreeSet<Symbol> {
+        let sources = self.parser.attributes();
+        sources.into_iter().filter(|(_, name)| self.flickering.contains(name)).map(|(predicate, _)| predicate).collect()
+    }
+
+    fn compare_resets(&mut self, seed: u64, first: Option<&State>, second: Option<&State>) {
+        if let (Some(first), Some(second)) = (first, second)
+            && let Some(change) = compare(first, second, &self.flickering_predicates())
+        {
+            self.find("reset", Problem::NotRepeatable { seed, change });
+        }
+    }
+
+    fn compare_settled(&mut self, after: &str, answered: Option<&State>, observed: Option<&State>) {
+        if let (Some(answered), Some(observed)) = (answered, observed)
+            && let Some(change) = compare(answered, observed, &self.flickering_predicates())
+        {
+            self.find(after, Problem::NotSettled { change });
+        }
+    }
+
+    /// Carries out an action; the state after it.
+    fn try_call(
+        &mut self,
+        world: &mut dyn World,
+        call: &GroundCall,
+        before: Option<&State>,
+    ) -> Result<Option<State>, WorldError> {
+        let place = call.to_string();
+        let acted = world.act(call)?;
+        let after = self.look(&place, &acted.scene);
+        let observed = world.observe()?;
+        let observed = self.look("observe", &observed);
+        self.compare_settled(&place, after.as_ref(), observed.as_ref());
+        let change = before
+            .as_ref()
+            .zip(after.as_ref())
+            .map(|(before, after)| compare(before, after, &self.flickering_predicates()).unwrap_or_default());
+        let executed = acted.executed;
+        let problem = change.as_ref().and_then(|change| match executed {
+            _ if !change.objects.is_empty() => Some(Problem::EntitiesChange { objects: change.objects.clone() }),
+            true if change.is_empty() => Some(Problem::ChangesNothing),
+            false if !change.is_empty() => Some(Problem::ChangesUnexecuted { change: change.clone() }),
+            _ => None,
+        });
+        if let Some(problem) = problem {
+            self.find(&place, problem);
+        }
+        self.tried.push(Tried { call: call.clone(), executed, reason: acted.reason, change });
+        Ok(observed.or(after))
+    }
+
+    fn finish(mut self) -> Inspection {
+        for problem in self.sightings.problems() {
+            self.find("state", problem);
+        }
+        Inspection {
+            entities: self.entities.unwrap_or_default(),
+            types: self.types.into_keys().collect(),
+            predicates: self.predicates,
+            tried: self.tried,
+            findings: self.findings,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,281 @@
+//! What can be wrong with what an environment shows.
+
+use std::collections::BTreeSet;
+use std::fmt;
+
+use thiserror::Error;
+use typelift_model::{GroundAtom, Symbol};
+
+use crate::ParseError;
+
+/// Atoms that are listed; of more it is said how many there are.
+const LISTED: usize = 3;
+
+/// How a state differs from one that should be the same.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Change {
+    /// Entities that only one of the two has.
+    pub objects: BTreeSet<Symbol>,
+    /// Atoms that only the second has.
+    pub added: BTreeSet<GroundAtom>,
+    /// Atoms that only the first has.
+    pub deleted: BTreeSet<GroundAtom>,
+}
+
+impl Change {
+    /// Whether nothing differs.
+    pub fn is_empty(&self) -> bool {
+        self.objects.is_empty() && self.added.is_empty() && self.deleted.is_empty()
+    }
+
+    /// The predicates of the atoms that differ.
+    pub fn predicates(&self) -> impl Iterator<Item = &Symbol> {
+        self.added.iter().chain(&self.deleted).map(|atom| &atom.predicate)
+    }
+
+    /// The atoms, each with a sign: `+on_holds(a,b)`, `-on_None(a)`.
+    pub fn atoms(&self) -> Vec<String> {
+        let added = self.added.iter().map(|atom| format!("+{atom}"));
+        added.chain(self.deleted.iter().map(|atom| format!("-{atom}"))).collect()
+    }
+}
+
+impl fmt::Display for Change {
+    /// `+on_holds(a,b) -on_None(a) and 2 more`, or the entities that only one has: the atoms follow from that.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let differences: Vec<String> = match self.objects.is_empty() {
+            false => self.objects.iter().map(ToString::to_string).collect(),
+            true => self.atoms(),
+        };
+        f.write_str(&differences[..differences.len().min(LISTED)].join(" "))?;
+        match differences.len().saturating_sub(LISTED) {
+            0 => Ok(()),
+            more => write!(f, " and {more} more"),
+        }
+    }
+}
+
+/// Something that was found, and where.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Finding {
+    /// The request whose answer shows it: `reset`, `observe`, or an action. `state` if all states together do.
+    pub place: String,
+    /// What is wrong.
+    pub problem: Problem,
+}
+
+/// What is wrong with what an environment shows.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum Problem {
+    /// A scene that is no state.
+    #[error("this is no state: {0}")]
+    NotAState(ParseError),
+    /// A type that the hierarchy does not have.
+    #[error("the types do not have `{ty}`, the type of {entity}")]
+    UnknownType {
+        /// The type's name.
+        ty: Symbol,
+        /// An entity of it.
+        entity: Symbol,
+        /// The type that may have been meant.
+        near: Option<Symbol>,
+    },
+    /// An entity that is now of this type and now of that.
+    #[error("{entity} was a {before} before, and is a {now} now")]
+    TypeChanges {
+        /// The entity.
+        entity: Symbol,
+        /// Its type at first.
+        before: Symbol,
+        /// Its type later.
+        now: Symbol,
+    },
+    /// The same seed gives different states.
+    #[error("two resets with seed {seed} differ: {change}")]
+    NotRepeatable {
+        /// The seed.
+        seed: u64,
+        /// How the second differs from the first.
+        change: Change,
+    },
+    /// The state goes on changing after the answer.
+    #[error("what is observed right after the answer differs from it: {change}")]
+    NotSettled {
+        /// How what is observed differs from the answer.
+        change: Change,
+    },
+    /// Something changes although nothing is done.
+    #[error("nothing was done, and {} changed: {change}", listed(.names))]
+    Flickers {
+        /// The attributes and relations that change by themselves; of a symbolic state, the predicates.
+        names: BTreeSet<Symbol>,
+        /// One such change.
+        change: Change,
+    },
+    /// An action makes entities appear or vanish.
+    #[error("entities appeared or vanished: {}", listed(.objects))]
+    EntitiesChange {
+        /// These.
+        objects: BTreeSet<Symbol>,
+    },
+    /// An action that was executed changes nothing that can be seen.
+    #[error("it was executed, and no atom changed")]
+    ChangesNothing,
+    /// An action that was not executed changes something.
+    #[error("it was not executed, and yet something changed: {change}")]
+    ChangesUnexecuted {
+        /// What it changed.
+        change: Change,
+    },
+    /// A relation that is now a list and now an id or null.
+    #[error("the relation `{relation}` is a list of {list}, and an id or null of {one}")]
+    MixedRelation {
+        /// The relation.
+        relation: Symbol,
+        /// An entity of which it is a list.
+        list: Symbol,
+        /// An entity of which it is none.
+        one: Symbol,
+    },
+    /// A relation that is a list, and never of more than one.
+    #[error("the relation `{relation}` is a list, but never held more than one entity, and none of {empty}")]
+    ListOfOne {
+        /// The relation.
+        relation: Symbol,
+        /// An entity of which it is empty.
+        empty: Symbol,
+    },
+    /// An attribute that has values of several kinds.
+    #[error("the attribute `{attribute}` is now {}", .kinds.join(" and now "))]
+    MixedAttribute {
+        /// The attribute.
+        attribute: Symbol,
+        /// What it is, each with its article.
+        kinds: Vec<&'static str>,
+    },
+    /// An attribute that is a number, of few values.
+    #[error("the attribute `{attribute}` is a number, which gives no atom, and was only ever {}", .values.join(", "))]
+    FewNumbers {
+        /// The attribute.
+        attribute: Symbol,
+        /// Its values.
+        values: Vec<String>,
+    },
+    /// An attribute that is a word, of very many values.
+    #[error("the attribute `{attribute}` had {words} different words for {entities} {}, such as `{example}`", if *.entities == 1 { "entity" } else { "entities" })]
+    ManyWords {
+        /// The attribute.
+        attribute: Symbol,
+        /// How many words.
+        words: usize,
+        /// Of how many entities.
+        entities: usize,
+        /// One of the words.
+        example: Symbol,
+    },
+    /// An attribute whose words are numbers.
+    #[error("the attribute `{attribute}` is the word `{example}`, which is a number in quotation marks")]
+    NumberAsWord {
+        /// The attribute.
+        attribute: Symbol,
+        /// One of the words.
+        example: Symbol,
+    },
+}
+
+impl Problem {
+    /// The word for it that a program reads.
+    pub fn word(&self) -> &'static str {
+        match self {
+            Self::NotAState(_) => "not_a_state",
+            Self::UnknownType { .. } => "unknown_type",
+            Self::TypeChanges { .. } => "type_changes",
+            Self::NotRepeatable { .. } => "not_repeatable",
+            Self::NotSettled { .. } => "not_settled",
+            Self::Flickers { .. } => "flickers",
+            Self::EntitiesChange { .. } => "entities_change",
+            Self::ChangesNothing => "changes_nothing",
+            Self::ChangesUnexecuted { .. } => "changes_unexecuted",
+            Self::MixedRelation { .. } => "mixed_relation",
+            Self::ListOfOne { .. } => "list_of_one",
+            Self::MixedAttribute { .. } => "mixed_attribute",
+            Self::FewNumbers { .. } => "few_numbers",
+            Self::ManyWords { .. } => "many_words",
+            Self::NumberAsWord { .. } => "number_as_word",
+        }
+    }
+
+    /// Whether it hurts in any case. The others may be meant.
+    pub fn is_certain(&self) -> bool {
+        !matches!(
+            self,
+            Self::ChangesNothing
+                | Self::ListOfOne { .. }
+                | Self::FewNumbers { .. }
+                | Self::ManyWords { .. }
+                | Self::NumberAsWord { .. }
+        )
+    }
+
+    /// What to do about it.
+    pub fn hint(&self) -> String {
+        match self {
+            Self::NotAState(_) => "Learning refuses such a state. Mend it, and check again: there may be more.".to_owned(),
+            Self::UnknownType { near: Some(near), .. } => format!("Did you mean `{near}`?"),
+            Self::UnknownType { ty, .. } => format!("Declare `{ty}` in the types file, under what it is a kind of."),
+            Self::TypeChanges { .. } => {
+                "An entity keeps its type; what changes about it is an attribute.".to_owned()
+            }
+            Self::NotRepeatable { change, .. } if !change.objects.is_empty() => {
+                "The same seed must give the same entities: name them in a fixed order, and draw all chance from the \
+                 seed."
+                    .to_owned()
+            }
+            Self::NotRepeatable { .. } => "Draw all chance from the seed that `reset` is given. Otherwise a task cannot be \
+                                           planned from its state, nor tried again with --restart."
+                .to_owned(),
+            Self::NotSettled { .. } => {
+                "Answer only when the world has come to rest, with the state after that.".to_owned()
+            }
+            Self::Flickers { change, .. } if !change.objects.is_empty() => {
+                "Report what is out of sight where it was seen last.".to_owned()
+            }
+            Self::Flickers { .. } => "Each such change makes one action look like several. Give it two thresholds \
+                                      (hysteresis), or leave it out, with --ignore for example."
+                .to_owned(),
+            Self::EntitiesChange { .. } => "Nothing is learned from such a step. Report every entity from the start, and \
+                                            say with an attribute whether it is there."
+                .to_owned(),
+            Self::ChangesNothing => "Learning takes this for a failure. What an action changes must be a relation, a word, \
+                                     or true or false."
+                .to_owned(),
+            Self::ChangesUnexecuted { .. } => "Learning takes it for a failure, and does not learn the change: say \
+                                               \"executed\":true where the action was carried out."
+                .to_owned(),
+            Self::MixedRelation { .. } => "Where there may be several it is a list, even of one or none; where there is at \
+                                           most one it is an id or null."
+                .to_owned(),
+            Self::ListOfOne { relation, .. } => format!(
+                "If there is at most one, write an id or null: only null gives an atom, `{relation}_None`, that an action \
+                 can need."
+            ),
+            Self::MixedAttribute { .. } => "Keep to one kind: a word, or true or false, or a number.".to_owned(),
+            Self::FewNumbers { .. } => "If an action needs or changes it, make it a word, or true or false.".to_owned(),
+            Self::ManyWords { .. } => "Each word is a predicate of its own, and what is learned with one says nothing about \
+                                       another. Use few words, a number, or a relation."
+                .to_owned(),
+            Self::NumberAsWord { .. } => {
+                "Without the quotation marks it is a number, which gives no atom; with them each value is a predicate of \
+                 its own."
+                    .to_owned()
+            }
+        }
+    }
+}
+
+fn listed(names: &BTreeSet<Symbol>) -> String {
+    match names.len() {
+        0 => "entities".to_owned(),
+        _ => names.iter().map(Symbol::as_str).collect::<Vec<_>>().join(", "),
+    }
+}

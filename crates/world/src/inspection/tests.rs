@@ -1,0 +1,175 @@
+use std::collections::VecDeque;
+
+use super::*;
+use crate::Acted;
+
+/// A world that shows these scenes, one after the other; the last one for ever.
+struct Scripted {
+    scenes: VecDeque<Scene>,
+    executes: bool,
+}
+
+impl Scripted {
+    fn showing(scenes: &[&str]) -> Self {
+        let scene = |json: &&str| serde_json::from_str(json).unwrap_or_else(|error| panic!("{json}: {error}"));
+        Self { scenes: scenes.iter().map(scene).collect(), executes: true }
+    }
+
+    fn next(&mut self) -> Scene {
+        let scene = if self.scenes.len() > 1 { self.scenes.pop_front() } else { self.scenes.front().cloned() };
+        scene.expect("a scene")
+    }
+}
+
+impl World for Scripted {
+    fn name(&self) -> String {
+        "scripted".to_owned()
+    }
+
+    fn reset(&mut self, _: &Reset) -> Result<Scene, WorldError> {
+        Ok(self.next())
+    }
+
+    fn observe(&mut self) -> Result<Scene, WorldError> {
+        Ok(self.next())
+    }
+
+    fn act(&mut self, _: &GroundCall) -> Result<Acted, WorldError> {
+        Ok(Acted { scene: self.next(), executed: self.executes, reason: None })
+    }
+}
+
+/// A scene of one pump with this in its attributes, and this in its relations.
+fn pump(attributes: &str, relations: &str) -> String {
+    format!(
+        r#"{{"entities":[{{"id":"pump_1","type":"pump","attributes":{{{attributes}}},"relations":{{{relations}}}}},
+                         {{"id":"tank_1","type":"tank"}}]}}"#
+    )
+}
+
+fn findings(mut world: Scripted, options: &InspectOptions) -> Vec<String> {
+    let inspection = inspect(&mut world, options).expect("the world does not fail");
+    inspection.findings.iter().map(|finding| format!("{}: {}", finding.place, finding.problem)).collect()
+}
+
+fn shown(scenes: &[&str]) -> Vec<String> {
+    findings(Scripted::showing(scenes), &InspectOptions::default())
+}
+
+fn calling() -> InspectOptions {
+    let call = GroundCall { name: Symbol::new("start"), args: vec![Symbol::new("pump_1")] };
+    InspectOptions { calls: vec![call], ..InspectOptions::default() }
+}
+
+/// Two resets, then five observations.
+const BEFORE_CALLS: usize = 7;
+
+#[test]
+fn a_world_that_stays_as_it_is_has_nothing_wrong() {
+    let scene = pump(r#""state":"Idle","on":false,"flow":0.25"#, r#""feeds":null,"near":[]"#);
+    assert_eq!(shown(&[&scene]), Vec::<String>::new());
+}
+
+#[test]
+fn the_first_difference_is_told_from_chance_unrest_and_flicker() {
+    let (on, off) = (pump(r#""on":true"#, ""), pump(r#""on":false"#, ""));
+    let (on, off) = (on.as_str(), off.as_str());
+    assert_eq!(shown(&[on, off]), ["reset: two resets with seed 0 differ: -on(pump_1)"]);
+    assert_eq!(shown(&[on, on, off]), ["reset: what is observed right after the answer differs from it: -on(pump_1)"]);
+    let flicker = "observe: nothing was done, and on changed: -on(pump_1)";
+    assert_eq!(shown(&[on, on, on, off]), [flicker]);
+    // What flickers is not told again as something else.
+    assert_eq!(shown(&[on, off, on, off, on, off, on]), [flicker]);
+    let ignoring = ParseConfig { ignore: BTreeSet::from([Symbol::new("on")]) };
+    let options = InspectOptions { parse: ignoring, ..InspectOptions::default() };
+    assert_eq!(findings(Scripted::showing(&[on, off, on, off]), &options), Vec::<String>::new());
+}
+
+#[test]
+fn an_attribute_that_flickers_is_named_not_its_words() {
+    let poses: Vec<String> = (0..12).map(|i| pump(&format!(r#""pose":"p{i}""#), "")).collect();
+    let poses: Vec<&str> = poses.iter().map(String::as_str).collect();
+    let found = findings(Scripted::showing(&poses), &calling());
+    let flicker = "observe: nothing was done, and pose changed: +pose_p3(pump_1) -pose_p2(pump_1)";
+    // The action changes nothing but what changes by itself.
+    let nothing = "start(pump_1): it was executed, and no atom changed";
+    let many = "state: the attribute `pose` had 9 different words for 1 entity, such as `p0`";
+    assert_eq!(found, [flicker, nothing, many]);
+}
+
+#[test]
+fn what_values_are_over_all_scenes() {
+    let cases = [
+        (r#""on":0"#, r#""on":1"#, "the attribute `on` is a number, which gives no atom, and was only ever 0, 1"),
+        (r#""on":true"#, r#""on":"Yes""#, "the attribute `on` is now true or false and now a word"),
+        (
+            r#""level":"0.5""#,
+            r#""level":"0.5""#,
+            "the attribute `level` is the word `0.5`, which is a number in quotation marks",
+        ),
+    ];
+    for (first, then, expected) in cases {
+        let found = shown(&[&pump(first, ""), &pump(first, ""), &pump(then, "")]);
+        assert_eq!(found.last().map(String::as_str), Some(format!("state: {expected}").as_str()), "{found:?}");
+    }
+    let masses: Vec<String> = (0..9).map(|i| pump(&format!(r#""mass":{i}"#), "")).collect();
+    let masses: Vec<&str> = masses.iter().map(String::as_str).collect();
+    assert_eq!(shown(&masses), Vec::<String>::new(), "a number with many values is one");
+    assert_eq!(shown(&[&pump(r#""mass":0.5"#, "")]), Vec::<String>::new());
+}
+
+#[test]
+fn lists_and_ids_are_told_apart() {
+    let (list, none, empty) = (r#""feeds":["tank_1"]"#, r#""feeds":null"#, r#""feeds":[]"#);
+    let last = |first: &str, then: &str| {
+        shown(&[&pump("", first), &pump("", first), &pump("", then)]).last().cloned().unwrap_or_default()
+    };
+    assert_eq!(last(list, none), "state: the relation `feeds` is a list of pump_1, and an id or null of pump_1");
+    let of_one = "state: the relation `feeds` is a list, but never held more than one entity, and none of pump_1";
+    assert_eq!(last(list, empty), of_one);
+    assert_eq!(shown(&[&pump("", empty)]), Vec::<String>::new(), "it may come to hold several");
+}
+
+#[test]
+fn types_and_names() {
+    let hierarchy = Hierarchy::from_edges([("pump", "object"), ("tanks", "object")]).expect("a tree");
+    let options = InspectOptions { hierarchy: Some(hierarchy), ..InspectOptions::default() };
+    let mut world = Scripted::showing(&[&pump("", r#""feeds":"tank_2""#)]);
+    let inspection = inspect(&mut world, &options).expect("the world does not fail");
+    let told: Vec<(String, String)> =
+        inspection.findings.iter().map(|f| (f.problem.to_string(), f.problem.hint())).collect();
+    assert_eq!(told[0].0, "the types do not have `tank`, the type of tank_1");
+    assert_eq!(told[0].1, "Did you mean `tanks`?");
+    assert_eq!(
+        told[1].0,
+        "this is no state: entity pump_1: the relation `feeds` mentions `tank_2`, which is not among the entities"
+    );
+    assert_eq!(told.len(), 2, "each thing is told once, however many scenes show it: {told:?}");
+    let becomes = pump("", "").replace(r#""type":"tank""#, r#""type":"barrel""#);
+    assert_eq!(shown(&[&pump("", ""), &becomes]), ["second reset: tank_1 was a tank before, and is a barrel now"]);
+}
+
+#[test]
+fn actions_that_cannot_be_learned_from() {
+    let (on, off) = (pump(r#""on":true"#, ""), pump(r#""on":false"#, ""));
+    let mut scenes = vec![off.as_str(); BEFORE_CALLS];
+    scenes.push(&on);
+    assert_eq!(findings(Scripted::showing(&scenes), &calling()), Vec::<String>::new());
+    let refusing = Scripted { executes: false, ..Scripted::showing(&scenes) };
+    assert_eq!(
+        findings(refusing, &calling()),
+        ["start(pump_1): it was not executed, and yet something changed: +on(pump_1)"]
+    );
+    let gone = r#"{"entities":[{"id":"pump_1","type":"pump"}]}"#;
+    scenes[BEFORE_CALLS] = gone;
+    assert_eq!(
+        findings(Scripted::showing(&scenes), &calling()),
+        ["start(pump_1): entities appeared or vanished: tank_1"]
+    );
+    scenes[BEFORE_CALLS] = &on;
+    scenes.push(&off);
+    assert_eq!(
+        findings(Scripted::showing(&scenes), &calling()),
+        ["start(pump_1): what is observed right after the answer differs from it: -on(pump_1)"]
+    );
+}
