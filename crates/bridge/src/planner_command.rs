@@ -39,6 +39,12 @@ const PLAN_LIMIT: u64 = 16 << 20;
 /// Bytes that are held, at most, for each byte of a plan file while it is read.
 const HELD_FOR_A_BYTE: u64 = 32;
 
+/// How the names of the folders of requests begin: should this program be killed, they tell whose they are.
+const FOLDER: &str = "typelift-planner-";
+
+/// The file in such a folder that is locked as long as the folder is in use.
+const LOCK: &str = ".lock";
+
 /// A command that plans: `fast-downward --alias lama-first --plan-file {plan} {domain} {problem}`.
 ///
 /// The command runs in an empty folder. The plan is read from `{plan}`; if that is not there, from the last of
@@ -52,6 +58,8 @@ pub struct PlannerCommand {
 /// The files of one request.
 struct Exchange {
     folder: TempDir,
+    /// Held as long as the folder is in use.
+    _lock: File,
     names: ExportNames,
 }
 
@@ -103,12 +111,11 @@ impl PlannerCommand {
         let failed = |error: &dyn std::fmt::Display| ExternalFailure::NotAsked { reason: error.to_string() };
         let options = ExportOptions { domain: "model".into(), problem: "task".into(), level: self.level };
         let Exported { domain, problem, names } = export(model, Some(task), &options).map_err(|e| failed(&e))?;
-        // Should this program be killed, its name tells whose it is.
-        let folder = tempfile::Builder::new().prefix("typelift-planner-").tempdir().map_err(|e| failed(&e))?;
+        let (folder, lock) = new_folder().map_err(|e| failed(&e))?;
         let write = |name: &str, text: String| fs::write(folder.path().join(name), text).map_err(|e| failed(&e));
         write("domain.pddl", domain.to_string())?;
         write("problem.pddl", problem.map(|problem| problem.to_string()).unwrap_or_default())?;
-        Ok(Exchange { folder, names })
+        Ok(Exchange { folder, _lock: lock, names })
     }
 
     fn start(&self, exchange: &Exchange) -> io::Result<Process> {
@@ -196,6 +203,28 @@ impl ExternalPlanner for PlannerCommand {
     }
 }
 
+/// A new folder for a request, with the lock in it; folders of programs that were killed are removed.
+fn new_folder() -> io::Result<(TempDir, File)> {
+    remove_left_behind(&std::env::temp_dir());
+    let folder = tempfile::Builder::new().prefix(FOLDER).tempdir()?;
+    let lock = File::create(folder.path().join(LOCK))?;
+    // Not every file system knows locks; where there are none, nothing is taken for left behind.
+    let _ = lock.lock();
+    Ok((folder, lock))
+}
+
+/// Removes the folders of requests in `parent` that are in use no longer. If that fails they stay, which does no harm.
+fn remove_left_behind(parent: &Path) {
+    for entry in fs::read_dir(parent).into_iter().flatten().flatten() {
+        if !entry.file_name().to_string_lossy().starts_with(FOLDER) {
+            continue;
+        }
+        if File::open(entry.path().join(LOCK)).is_ok_and(|lock| lock.try_lock().is_ok()) {
+            let _ = fs::remove_dir_all(entry.path());
+        }
+    }
+}
+
 /// Whether somebody asks to stop, now or soon.
 fn is_stopped_within(budget: &Budget, limit: Duration) -> bool {
     let begun = Instant::now();
@@ -257,5 +286,27 @@ impl Exchange {
         let text = String::from_utf8_lossy(&log);
         let lines: Vec<&str> = text.lines().filter(|line| !line.trim().is_empty()).collect();
         lines[lines.len().saturating_sub(TOLD)..].iter().map(|line| shorten(line)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn folders_of_killed_programs_are_removed_and_no_others() {
+        let parent = tempfile::tempdir().expect("a folder");
+        let made = |name: &str, lock: bool| {
+            let path = parent.path().join(name);
+            fs::create_dir(&path).expect("a folder");
+            (lock.then(|| File::create(path.join(LOCK)).expect("a file")), path)
+        };
+        let (in_use, used) = made("typelift-planner-a", true);
+        in_use.as_ref().expect("a lock").lock().expect("locked");
+        let left = made("typelift-planner-b", true).1;
+        let kept = [used, made("typelift-planner-c", false).1, made("another-planner", true).1];
+        remove_left_behind(parent.path());
+        assert!(!left.exists());
+        assert!(kept.iter().all(|path| path.exists()));
     }
 }

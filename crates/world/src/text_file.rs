@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::FileError;
 
-/// Reads a file as UTF-8; a byte order mark at its start is dropped.
+/// Reads a file as UTF-8; a byte order mark at its start is dropped. Comments of PDDL may be in Latin-1.
 ///
 /// # Errors
 /// [`FileError`] if it cannot be read, or at the first byte that is not UTF-8.
@@ -26,16 +26,37 @@ pub fn text_from(name: &Path, mut input: impl Read) -> Result<String, FileError>
 }
 
 pub(crate) fn text_of(path: &Path, bytes: Vec<u8>) -> Result<String, FileError> {
-    let mut text = String::from_utf8(bytes).map_err(|error| {
+    let mut text = String::from_utf8(bytes).or_else(|error| {
+        if let Some(text) = with_latin1_comments(error.as_bytes()) {
+            return Ok(text);
+        }
         let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
         let line = 1 + valid.iter().filter(|&&b| b == b'\n').count();
         let line_start = valid.iter().rposition(|&b| b == b'\n').map_or(0, |at| at + 1);
-        not_utf8(path, line, valid.len() - line_start)
+        Err(not_utf8(path, line, valid.len() - line_start))
     })?;
     if text.starts_with('\u{FEFF}') {
         text.drain(..'\u{FEFF}'.len_utf8());
     }
     Ok(text)
+}
+
+/// PDDL whose comments, and nothing else, are in Latin-1: many an author's name is, in the benchmarks of the nineties.
+fn with_latin1_comments(bytes: &[u8]) -> Option<String> {
+    if !matches!(bytes.trim_ascii_start().first(), Some(b'(' | b';')) {
+        return None;
+    }
+    let mut text = String::with_capacity(bytes.len() + 16);
+    for line in bytes.split_inclusive(|&byte| byte == b'\n') {
+        let comment = line.iter().position(|&byte| byte == b';').unwrap_or(line.len());
+        let (code, comment) = line.split_at(comment);
+        text.push_str(std::str::from_utf8(code).ok()?);
+        match std::str::from_utf8(comment) {
+            Ok(comment) => text.push_str(comment),
+            Err(_) => text.extend(comment.iter().copied().map(char::from)),
+        }
+    }
+    Some(text)
 }
 
 /// The error about a line that is UTF-8 only up to the byte at `offset`.
@@ -238,5 +259,16 @@ mod tests {
         let error = read_text(&path).expect_err("not UTF-8");
         let shown = path.display();
         assert_eq!(error.to_string(), format!("{shown}:2:5: this is not UTF-8 text from byte 5 of the line on"));
+    }
+
+    #[test]
+    fn comments_of_pddl_may_be_latin1() {
+        let read = |bytes: &[u8]| text_of(Path::new("a"), bytes.to_vec()).map_err(|error| error.to_string());
+        assert_eq!(read(b" ; J\xF6rg\n(define) ; \xE9\n").as_deref(), Ok(" ; J\u{F6}rg\n(define) ; \u{E9}\n"));
+        // In a line of its own each is what it says it is.
+        assert_eq!(read(b"(a) ; \xC3\xB6\n; \xF6").as_deref(), Ok("(a) ; \u{F6}\n; \u{F6}"));
+        let wrong = Err("a:1:2: this is not UTF-8 text from byte 2 of the line on".to_owned());
+        assert_eq!(read(b"(\xF6) ; o"), wrong);
+        assert_eq!(read(b"\"\xF6;\""), wrong);
     }
 }

@@ -11,7 +11,7 @@ use typelift::pddl::{
     undeclared_requirements,
 };
 use typelift::words::count;
-use typelift::world::{FileError, read_text};
+use typelift::world::FileError;
 
 use super::domains::Domains;
 use crate::exit::Exit;
@@ -120,7 +120,7 @@ pub(super) fn check(files: &[PathBuf], json: bool, quiet: bool) -> Result<Exit, 
 
 /// Looks at how a file begins; a domain is given to the problems.
 fn kind_of(file: &Path, domains: &mut Domains) -> Result<Kind, FileError> {
-    let text = read_text(file)?;
+    let text = domains.text(file)?;
     if file.extension().is_some_and(|ending| ending == "plan") {
         return Ok(Kind::Plan);
     }
@@ -150,7 +150,7 @@ fn content_of(file: &Path, kind: Kind, domains: &mut Domains) -> Result<Content,
         Kind::Domain => domains.read(file).map(|domain| domain_content(&domain)),
         Kind::Problem(name) => {
             let domain = name.map(|name| domains.of_problem(file, &name)).transpose()?.unwrap_or_default();
-            let text = read_text(file)?;
+            let text = domains.text(file)?;
             let at_place = |error| FileError::from_pddl(file, &text, error);
             let problem = read_problem(&text, &domain).map_err(at_place)?;
             let compiled = compile_domain(&domain).and_then(|mut model| compile_problem(&problem, &mut model));
@@ -158,12 +158,12 @@ fn content_of(file: &Path, kind: Kind, domains: &mut Domains) -> Result<Content,
             Ok(problem_content(&problem, &domain))
         }
         Kind::Trajectory => {
-            let text = read_text(file)?;
+            let text = domains.text(file)?;
             let trajectory = read_trajectory(&text).map_err(|error| FileError::from_pddl(file, &text, error))?;
             Ok(trajectory_content(&trajectory))
         }
         Kind::Plan => {
-            let text = read_text(file)?;
+            let text = domains.text(file)?;
             let plan = read_plan(&text).map_err(|error| FileError::from_pddl(file, &text, error))?;
             Ok(content(None, vec![("action", plan.len())], Vec::new()))
         }

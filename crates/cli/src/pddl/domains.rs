@@ -7,9 +7,11 @@ use std::rc::Rc;
 use typelift::pddl::{Definition, DefinitionKind, Document, Domain, compile_domain, read_domain};
 use typelift::world::{FileError, read_text};
 
-/// Domains, each read once.
+/// Domains, each read once, and the texts of what can be read only once.
 #[derive(Debug, Default)]
 pub(crate) struct Domains {
+    /// What came out of pipes.
+    kept: BTreeMap<PathBuf, String>,
     /// The domains that were named by the user, with their names in lower case.
     given: Vec<(PathBuf, String)>,
     read: BTreeMap<PathBuf, Result<Rc<Domain>, FileError>>,
@@ -23,17 +25,32 @@ impl Domains {
         self.given.push((path.to_owned(), name.to_ascii_lowercase()));
     }
 
+    /// The text of a file, as often as it is asked for, even if it is a pipe.
+    pub(crate) fn text(&mut self, path: &Path) -> Result<String, FileError> {
+        if let Some(text) = self.kept.get(path) {
+            return Ok(text.clone());
+        }
+        let text = read_text(path)?;
+        if !path.is_file() {
+            self.kept.insert(path.to_owned(), text.clone());
+        }
+        Ok(text)
+    }
+
     /// Reads a domain.
     pub(crate) fn read(&mut self, path: &Path) -> Result<Rc<Domain>, FileError> {
-        let read = || {
-            let text = read_text(path)?;
+        if let Some(domain) = self.read.get(path) {
+            return domain.clone();
+        }
+        let domain = self.text(path).and_then(|text| {
             let at_place = |error| FileError::from_pddl(path, &text, error);
             let domain = read_domain(&text).map_err(at_place)?;
             // What planning refuses is refused.
             compile_domain(&domain).map_err(|error| at_place(error.locate(&text)))?;
             Ok(Rc::new(domain))
-        };
-        self.read.entry(path.to_owned()).or_insert_with(read).clone()
+        });
+        self.read.insert(path.to_owned(), domain.clone());
+        domain
     }
 
     /// The domain of a problem that says it belongs to `name`: one that was given, or else `domain.pddl` beside the

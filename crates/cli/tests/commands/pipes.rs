@@ -32,6 +32,9 @@ fn whatever_is_read_may_come_through_a_pipe() {
         ("learn K/demos --types PIPE -o m.json -q", "K/types.pddl"),
         ("kitchen replay PIPE", "K/demos/cut_lettuce.jsonl"),
         ("pddl format PIPE", "P/problem.pddl"),
+        ("pddl check PIPE", "P/domain.pddl"),
+        ("pddl check P/domain.pddl PIPE", "P/problem.pddl"),
+        ("pddl check PIPE P/problem.pddl", "P/domain.pddl"),
     ] {
         let [mut file_read, mut pipe_read] = both(&folder, command, file);
         for ended in [&mut file_read, &mut pipe_read] {
