@@ -7,6 +7,7 @@ mod check_env;
 mod columns;
 mod confirm;
 mod demo;
+mod diff;
 mod environment;
 mod exit;
 mod export;
@@ -59,6 +60,7 @@ enum Command {
     Demo(demo::Demo),
     Learn(learn::Learn),
     Show(show::Show),
+    Diff(diff::Diff),
     Plan(plan::Plan),
     Export(export::Export),
     Run(run::Run),
@@ -86,6 +88,7 @@ fn main() -> ExitCode {
         Command::Demo(demo) => demo.run(clock),
         Command::Learn(learn) => learn.run(clock, quiet),
         Command::Show(show) => show.run(),
+        Command::Diff(diff) => diff.run(),
         Command::Plan(plan) => plan.run(clock, quiet),
         Command::Export(export) => export.run(clock, quiet),
         Command::Run(run) => run.run(clock, quiet),

@@ -94,8 +94,8 @@ impl Description {
 }
 
 /// Lifted things with the names of their parameters.
-struct Written<'a> {
-    parameters: Vec<&'a Parameter>,
+pub(crate) struct Written<'a> {
+    pub(crate) parameters: Vec<&'a Parameter>,
 }
 
 impl Written<'_> {
@@ -106,7 +106,7 @@ impl Written<'_> {
         }
     }
 
-    fn atom(&self, atom: &LiftedAtom) -> String {
+    pub(crate) fn atom(&self, atom: &LiftedAtom) -> String {
         let args: Vec<String> = atom.args.iter().map(|term| self.term(term)).collect();
         match args.as_slice() {
             [a, b] if atom.is_equality() => format!("{a}={b}"),
@@ -114,13 +114,13 @@ impl Written<'_> {
         }
     }
 
-    fn literal(&self, literal: &Literal) -> String {
+    pub(crate) fn literal(&self, literal: &Literal) -> String {
         format!("{}{}", if literal.positive { "" } else { "not " }, self.atom(&literal.atom))
     }
 }
 
 /// `p(?x) for all ?x - t if q(?x) r(?x)`, in words.
-fn conditional(effect: &Effect, action: &ActionSchema, hierarchy: &Hierarchy) -> Vec<String> {
+pub(crate) fn conditional(effect: &Effect, action: &ActionSchema, hierarchy: &Hierarchy) -> Vec<String> {
     let written = Written { parameters: action.parameters.iter().chain(&effect.parameters).collect() };
     let mut words = vec![written.atom(&effect.literal.atom)];
     if !effect.parameters.is_empty() {

@@ -10,6 +10,7 @@
 //! | `plan.rs`        | plans and their steps                                   |
 //! | `answer.rs`      | the answer to a planning question                       |
 //! | `action.rs`      | actions and axioms of a model                           |
+//! | `difference/`    | how two models differ                                   |
 //! | `learning.rs`    | what learning could make nothing of                     |
 //! | `account.rs`     | how an episode went                                     |
 //! | `event.rs`       | what happens during an episode                          |
@@ -19,6 +20,7 @@
 mod account;
 mod action;
 mod answer;
+mod difference;
 mod event;
 mod inspection;
 mod learning;
@@ -29,6 +31,7 @@ mod wire;
 pub use account::{AccountView, BrokenOffView, ExclusionView, FailureView, summary};
 pub use action::{Description, Row, describe_action, describe_axiom, individual_name};
 pub use answer::{AnswerView, ending, why_none};
+pub use difference::{ActionDifference, ListDifference, ModelDifference, difference, difference_lines};
 pub use event::line;
 pub use inspection::{FindingView, InspectionView, TriedView, inspection_lines};
 pub use learning::why_unexplained;

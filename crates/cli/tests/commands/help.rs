@@ -9,6 +9,7 @@ fn every_command_has_help() {
         "demo",
         "learn",
         "show",
+        "diff",
         "plan",
         "export",
         "run",

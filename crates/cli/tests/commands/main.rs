@@ -8,6 +8,7 @@ mod bad_types;
 mod checking_environments;
 mod common;
 mod confirming;
+mod differing;
 mod environments;
 mod exporting;
 mod given;

@@ -1,0 +1,252 @@
+//! How two models differ, whatever their parameters are called.
+//!
+//! `matching.rs` finds which action of one is which of the other, and how its parameters are called there. What is left is
+//! a comparison of what is said of both.
+
+mod matching;
+
+use std::collections::BTreeSet;
+
+use serde::Serialize;
+use typelift_model::{ActionModel, ActionSchema, Effect, Literal, Parameter};
+
+use crate::action::{Written, conditional, describe_axiom};
+use crate::text::{Role, Text};
+use matching::{Pair, matching};
+
+/// What only one of two lists has, each in its order.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
+pub struct ListDifference {
+    /// What only the first has.
+    pub only_first: BTreeSet<String>,
+    /// What only the second has.
+    pub only_second: BTreeSet<String>,
+}
+
+/// How an action differs in two models; the second's parameters are called as the first's.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct ActionDifference {
+    /// Its name in the first model.
+    pub first: String,
+    /// Its name in the second.
+    pub second: String,
+    /// How its parameters' types differ.
+    #[serde(skip_serializing_if = "ListDifference::is_empty")]
+    pub parameters: ListDifference,
+    /// How its preconditions differ.
+    #[serde(skip_serializing_if = "ListDifference::is_empty")]
+    pub needs: ListDifference,
+    /// How its add effects differ.
+    #[serde(skip_serializing_if = "ListDifference::is_empty")]
+    pub adds: ListDifference,
+    /// How its delete effects differ.
+    #[serde(skip_serializing_if = "ListDifference::is_empty")]
+    pub deletes: ListDifference,
+    /// How its cost differs.
+    #[serde(skip_serializing_if = "ListDifference::is_empty")]
+    pub costs: ListDifference,
+}
+
+/// How two models differ.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
+pub struct ModelDifference {
+    /// Whether they do not.
+    pub same: bool,
+    /// Types, each with a parent.
+    pub types: ListDifference,
+    /// Predicates, each with the types of its arguments.
+    pub predicates: ListDifference,
+    /// Derived predicates, each with what it follows from.
+    pub axioms: ListDifference,
+    /// Actions of which the other model has none alike.
+    pub actions: ListDifference,
+    /// Actions that both have, and that differ.
+    pub changed: Vec<ActionDifference>,
+}
+
+/// Compares two models: actions of one skill are the same where their effects, renamed, have most in common. `folded` takes
+/// names that differ in case only for the same, as PDDL does. The time is quadratic in the actions of one skill, and
+/// factorial in the parameters that the call does not name, of which at most six are renamed.
+pub fn difference(first: &ActionModel, second: &ActionModel, folded: bool) -> ModelDifference {
+    let fold = |text: String| if folded { text.to_lowercase() } else { text };
+    let compare = |list: fn(&ActionModel) -> Vec<String>| {
+        let set = |model| list(model).into_iter().map(fold).collect();
+        ListDifference::of(&set(first), &set(second))
+    };
+    let pairs = matching(first, second, &fold);
+    let alone = |actions: &[ActionSchema], matched: &BTreeSet<usize>| -> BTreeSet<String> {
+        let alone = actions.iter().enumerate().filter(|(i, _)| !matched.contains(i));
+        alone.map(|(_, action)| action.name.to_string()).collect()
+    };
+    let actions = ListDifference {
+        only_first: alone(&first.actions, &pairs.iter().map(|pair| pair.first).collect()),
+        only_second: alone(&second.actions, &pairs.iter().map(|pair| pair.second).collect()),
+    };
+    let mut found = ModelDifference {
+        same: false,
+        types: compare(types),
+        predicates: compare(predicates),
+        axioms: compare(axioms),
+        actions,
+        changed: pairs.iter().map(|pair| changes(pair, first, second, &fold)).filter(|c| !c.is_empty(&fold)).collect(),
+    };
+    found.same = found == ModelDifference::default();
+    found
+}
+
+impl ListDifference {
+    fn of(first: &BTreeSet<String>, second: &BTreeSet<String>) -> Self {
+        Self {
+            only_first: first.difference(second).cloned().collect(),
+            only_second: second.difference(first).cloned().collect(),
+        }
+    }
+
+    fn is_empty(&self) -> bool {
+        self.only_first.is_empty() && self.only_second.is_empty()
+    }
+
+    /// How much differs.
+    fn len(&self) -> usize {
+        self.only_first.len() + self.only_second.len()
+    }
+}
+
+impl ActionDifference {
+    fn is_empty(&self, fold: &impl Fn(String) -> String) -> bool {
+        let parts = [&self.parameters, &self.needs, &self.adds, &self.deletes, &self.costs];
+        parts.iter().all(|part| part.is_empty()) && fold(self.first.clone()) == fold(self.second.clone())
+    }
+}
+
+fn types(model: &ActionModel) -> Vec<String> {
+    model.hierarchy.edges().map(|(child, parent)| format!("{child} - {parent}")).collect()
+}
+
+fn predicates(model: &ActionModel) -> Vec<String> {
+    let said = model.predicates.iter().map(|(name, types)| {
+        let types: Vec<&str> = types.iter().map(|ty| model.hierarchy.name(*ty).as_str()).collect();
+        format!("{name}({})", types.join(", "))
+    });
+    said.collect()
+}
+
+fn axioms(model: &ActionModel) -> Vec<String> {
+    let said = model.axioms.iter().map(|axiom| {
+        let description = describe_axiom(axiom, model);
+        let rows = description.rows.iter().map(|row| format!("{} {}", row.label, row.words.join(" ")));
+        format!("{} {}", description.name, rows.collect::<Vec<_>>().join(" "))
+    });
+    said.collect()
+}
+
+/// What is said of an action whose parameters are called as these.
+struct Said {
+    parameters: BTreeSet<String>,
+    needs: BTreeSet<String>,
+    adds: BTreeSet<String>,
+    deletes: BTreeSet<String>,
+    costs: BTreeSet<String>,
+}
+
+impl Said {
+    /// Of an action of this model; `names[i]` is what its parameter `i` is called.
+    fn of(action: &ActionSchema, model: &ActionModel, names: &[Parameter], fold: &impl Fn(String) -> String) -> Self {
+        let h = &model.hierarchy;
+        let written = Written { parameters: names.iter().collect() };
+        let typed = names.iter().zip(&action.parameters).map(|(name, p)| format!("?{} - {}", name.name, h.name(p.ty)));
+        // Things of types that exclude each other differ anyway, said or not.
+        let may_be_one =
+            |&&(a, b): &&(u32, u32)| !h.disjoint(action.parameters[a as usize].ty, action.parameters[b as usize].ty);
+        let distinct = action.distinct.iter().filter(may_be_one).map(|&(a, b)| {
+            let mut pair = [&names[a as usize].name, &names[b as usize].name];
+            pair.sort();
+            format!("?{}≠?{}", pair[0], pair[1])
+        });
+        let effects = |adds: bool| {
+            let effects = action.effects.iter().filter(move |effect| effect.literal.positive == adds);
+            effects.map(|effect| fold(effect_in_words(effect, action, names, model))).collect()
+        };
+        let functions = action.cost.functions.iter().map(|function| written.atom(function));
+        Self {
+            parameters: typed.map(fold).collect(),
+            needs: action.preconditions.iter().map(|l| written.literal(l)).chain(distinct).map(fold).collect(),
+            adds: effects(true),
+            deletes: effects(false),
+            costs: functions.chain([action.cost.fixed.to_string()]).map(fold).collect(),
+        }
+    }
+}
+
+fn effect_in_words(effect: &Effect, action: &ActionSchema, names: &[Parameter], model: &ActionModel) -> String {
+    if effect.is_unconditional() {
+        let written = Written { parameters: names.iter().collect() };
+        return written.literal(&Literal::positive(effect.literal.atom.clone()));
+    }
+    let renamed = ActionSchema { parameters: names.to_vec(), ..action.clone() };
+    conditional(effect, &renamed, &model.hierarchy).join(" ")
+}
+
+fn changes(
+    pair: &Pair,
+    first: &ActionModel,
+    second: &ActionModel,
+    fold: &impl Fn(String) -> String,
+) -> ActionDifference {
+    let (a, b) = (&first.actions[pair.first], &second.actions[pair.second]);
+    let said_of_a = Said::of(a, first, &a.parameters, fold);
+    let names: Vec<Parameter> = pair.renaming.iter().map(|&of_a| a.parameters[of_a].clone()).collect();
+    let said_of_b = Said::of(b, second, &names, fold);
+    ActionDifference {
+        first: a.name.to_string(),
+        second: b.name.to_string(),
+        parameters: ListDifference::of(&said_of_a.parameters, &said_of_b.parameters),
+        needs: ListDifference::of(&said_of_a.needs, &said_of_b.needs),
+        adds: ListDifference::of(&said_of_a.adds, &said_of_b.adds),
+        deletes: ListDifference::of(&said_of_a.deletes, &said_of_b.deletes),
+        costs: ListDifference::of(&said_of_a.costs, &said_of_b.costs),
+    }
+}
+
+/// The difference in lines: `-` before what only the first has, `+` before what only the second has.
+pub fn difference_lines(found: &ModelDifference) -> Vec<Text> {
+    if found.same {
+        return vec![Text::new().with(Role::Good, "the same")];
+    }
+    let mut lines = Vec::new();
+    let parts = [
+        ("types", &found.types),
+        ("predicates", &found.predicates),
+        ("axioms", &found.axioms),
+        ("actions", &found.actions),
+    ];
+    for (what, list) in parts {
+        push_list(&mut lines, 0, what, list);
+    }
+    for action in &found.changed {
+        let renamed = if action.first == action.second { String::new() } else { format!(" / {}", action.second) };
+        lines.push(Text::new().with(Role::Heading, action.first.as_str()).plain(renamed));
+        let parts = [
+            ("parameters", &action.parameters),
+            ("needs", &action.needs),
+            ("adds", &action.adds),
+            ("deletes", &action.deletes),
+            ("costs", &action.costs),
+        ];
+        for (what, list) in parts {
+            push_list(&mut lines, 2, what, list);
+        }
+    }
+    lines
+}
+
+fn push_list(lines: &mut Vec<Text>, indent: usize, what: &str, list: &ListDifference) {
+    if list.is_empty() {
+        return;
+    }
+    let space = " ".repeat(indent);
+    let role = if indent == 0 { Role::Heading } else { Role::Aside };
+    lines.push(Text::new().plain(space.clone()).with(role, what));
+    lines.extend(list.only_first.iter().map(|said| Text::new().with(Role::Bad, format!("{space}  - {said}"))));
+    lines.extend(list.only_second.iter().map(|said| Text::new().with(Role::Good, format!("{space}  + {said}"))));
+}
