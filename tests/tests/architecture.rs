@@ -22,7 +22,7 @@ const ALLOWED: [(&str, &[&str]); 14] = [
     ("learn", &["model", "world"]),
     ("plan", &["model"]),
     ("imagine", &["model", "plan"]),
-    ("check", &["model"]),
+    ("check", &["model", "pddl"]),
     ("agent", &["model", "world", "plan", "imagine", "check"]),
     ("words", &["model", "world", "plan", "agent"]),
     ("bridge", &["model", "pddl", "world", "plan"]),
@@ -167,9 +167,9 @@ const ORDER_IN_PLAN: &[&str] = &[
 #[rustfmt::skip]
 const ORDER_IN_PDDL: &[&str] = &[
     "position", "syntax", "error", "layout_tokens", "sexpr",
-    "format", "names", "required", "requirements", "syntax_writer", "trajectory", "typed_list", "vocabulary",
+    "format", "names", "required", "requirements", "syntax_writer", "formula_text", "trajectory", "typed_list", "vocabulary",
     "definition", "objects", "plan_file", "scope", "types",
-    "formula_reader", "effect_reader", "domain_reader", "problem_reader", "compile", "export",
+    "formula_reader", "effect_reader", "domain_reader", "problem_reader", "compile", "export", "meaning",
 ];
 
 #[test]

@@ -12,8 +12,10 @@
 //! ```
 #![deny(missing_docs)]
 
+mod stated;
 mod validate;
 
+pub use stated::validate_stated;
 pub use validate::{Valid, validate};
 
 use thiserror::Error;

@@ -1,4 +1,4 @@
-//! Plans as files state them: names and objects, without saying which case of an action is meant.
+//! Plans of a model as files state them: names and objects, without saying which case of an action is meant.
 //!
 //! A PDDL action with a disjunctive or existential precondition is several schemas of a model, whose parameters may
 //! be more than the action's. A line of a plan can be executed if one of them can, with whatever objects for the other

@@ -20,7 +20,11 @@ pub(crate) enum ModelInput {
 
 /// Reads a model file or a PDDL domain, and adds the types of another file to a model.
 pub(crate) fn read_model_input(path: &Path, types: Option<&PathBuf>) -> Result<ModelInput, Failure> {
-    let text = read_text(path)?;
+    model_input_from_text(path, read_text(path)?, types)
+}
+
+/// As [`read_model_input`], from the text of the model or domain.
+pub(crate) fn model_input_from_text(path: &Path, text: String, types: Option<&PathBuf>) -> Result<ModelInput, Failure> {
     if is_pddl(&text) {
         if let Some(types) = types {
             let message = format!("--types {}: a PDDL domain declares its own types", types.display());
@@ -82,19 +86,22 @@ impl ModelInput {
 
     /// Reads a task file, or a problem of the domain; warns unless it is to be `quiet`.
     pub(crate) fn read_task(&self, path: &Path, quiet: bool) -> Result<TaskInput, Failure> {
-        // It is read once: it may be a pipe.
-        let text = read_text(path)?;
+        self.task_from_text(path, &read_text(path)?, quiet)
+    }
+
+    /// As [`read_task`](Self::read_task), from the text, which is read once: it may come from a pipe.
+    fn task_from_text(&self, path: &Path, text: &str, quiet: bool) -> Result<TaskInput, Failure> {
         match self {
-            Self::Given(domain) if is_pddl(&text) => {
-                Ok(TaskInput::Problem(Box::new(domain.problem_from_text(path, &text)?)))
+            Self::Given(domain) if is_pddl(text) => {
+                Ok(TaskInput::Problem(Box::new(domain.problem_from_text(path, text)?)))
             }
-            Self::Learned(_) if is_pddl(&text) => {
+            Self::Learned(_) if is_pddl(text) => {
                 let error = FileError::new(path, "this is PDDL, and the model is a learned one");
                 let hint = "A PDDL problem needs its PDDL domain in the model's place; `typelift export` writes both.";
                 Err(error.with_hint(hint.to_owned()).into())
             }
             _ => {
-                let file = TaskFile::from_text(path, &text)?;
+                let file = TaskFile::from_text(path, text)?;
                 if !quiet {
                     warn(file.warnings.iter());
                 }
@@ -105,7 +112,18 @@ impl ModelInput {
 
     /// Reads a task that says from which state to plan: the model for it, and the task.
     pub(crate) fn read_planning_task(self, path: &Path, quiet: bool) -> Result<(ActionModel, Task), Failure> {
-        match self.read_task(path, quiet)? {
+        let text = read_text(path)?;
+        self.planning_task_from_text(path, &text, quiet)
+    }
+
+    /// As [`read_planning_task`](Self::read_planning_task), from the text.
+    pub(crate) fn planning_task_from_text(
+        self,
+        path: &Path,
+        text: &str,
+        quiet: bool,
+    ) -> Result<(ActionModel, Task), Failure> {
+        match self.task_from_text(path, text, quiet)? {
             TaskInput::Problem(problem) => Ok(*problem),
             TaskInput::File(file) => {
                 let (model, parse) = match self {

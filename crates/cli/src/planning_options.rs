@@ -10,7 +10,7 @@ use typelift::model::{ActionModel, Budget, Task, strict};
 use typelift::plan::Restrictions;
 
 use crate::failure::Failure;
-use crate::files::{ModelInput, read_model_input};
+use crate::files::{ModelInput, model_input_from_text, read_model_input};
 use crate::limits::SearchLimits;
 use crate::planner_option::PlannerOption;
 
@@ -35,6 +35,16 @@ impl ModelArguments {
     /// Reads the model.
     pub(crate) fn read(&self) -> Result<ModelInput, Failure> {
         read_model_input(&self.model, self.types.as_ref())
+    }
+
+    /// As [`read`](Self::read), from the text of the model or domain.
+    pub(crate) fn input_of(&self, text: String) -> Result<ModelInput, Failure> {
+        model_input_from_text(&self.model, text, self.types.as_ref())
+    }
+
+    /// Whether it is used as its file has it, if that is a PDDL domain.
+    pub(crate) fn is_as_stated(&self) -> bool {
+        self.types.is_none() && !self.imagine
     }
 
     /// The files that are read.

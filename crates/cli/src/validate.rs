@@ -4,9 +4,9 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use serde::Serialize;
-use typelift::check::{Invalid, validate};
+use typelift::check::{Invalid, validate, validate_stated};
 use typelift::pddl::{PddlError, PlanLine, read_plan};
-use typelift::world::{FileError, read_text};
+use typelift::world::{FileError, StatedProblem, is_pddl, read_text};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -60,6 +60,9 @@ struct Verdict<'a> {
     reason: Option<String>,
 }
 
+/// A plan's file as the user names it, its text and its lines.
+type PlanFile = (String, String, Vec<PlanLine>);
+
 /// A plan that was read and held against the task.
 struct Checked {
     /// The file, as the user names it.
@@ -92,16 +95,14 @@ impl Validate {
 
     /// Reads everything, and takes the plans' steps.
     fn check(&self, clock: Clock, quiet: bool) -> Result<Vec<Checked>, Failure> {
-        let (model, task) = self.model.read()?.read_planning_task(&self.task, quiet)?;
+        let (model, task) = (read_text(&self.model.model)?, read_text(&self.task)?);
+        if self.model.is_as_stated() && is_pddl(&model) && is_pddl(&task) {
+            return self.check_stated(model, task);
+        }
+        let (model, task) = self.model.input_of(model)?.planning_task_from_text(&self.task, &task, quiet)?;
         let budget = self.limits.budget(clock, &Interrupt::default());
         let model = self.model.as_used(model, Some(&task), &budget)?;
-        let read = |path: &PathBuf| -> Result<_, Failure> {
-            let text = read_text(path)?;
-            let lines = read_plan(&text).map_err(|error| FileError::from_pddl(path, &text, error))?;
-            Ok((path.display().to_string(), text, lines))
-        };
-        let files = self.plans.iter().map(read).collect::<Result<Vec<_>, _>>()?;
-        let check = |(plan, text, lines): (String, String, Vec<PlanLine>)| -> Result<_, Failure> {
+        let check = |(plan, text, lines): PlanFile| -> Result<_, Failure> {
             let calls = calls_of_plan(&lines, &model, &task.init)?;
             let (steps, value, invalid) = match validate(&model, &task, &calls) {
                 Ok(valid) => (valid.plan.len(), Some(valid.plan.cost()), None),
@@ -109,7 +110,30 @@ impl Validate {
             };
             Ok(Checked { plan, text, lines, steps, value, invalid })
         };
-        files.into_iter().map(check).collect()
+        self.read_plans()?.into_iter().map(check).collect()
+    }
+
+    /// The same by what the texts of a domain and a problem state.
+    fn check_stated(&self, domain: String, problem: String) -> Result<Vec<Checked>, Failure> {
+        let stated = StatedProblem::from_texts((&self.model.model, domain), (&self.task, problem))?;
+        let meaning = stated.meaning()?;
+        let check = |(plan, text, lines): PlanFile| {
+            let (steps, value, invalid) = match validate_stated(&meaning, &lines) {
+                Ok(cost) => (lines.len(), Some(cost), None),
+                Err((taken, invalid)) => (taken, None, Some(invalid)),
+            };
+            Checked { plan, text, lines, steps, value, invalid }
+        };
+        Ok(self.read_plans()?.into_iter().map(check).collect())
+    }
+
+    fn read_plans(&self) -> Result<Vec<PlanFile>, Failure> {
+        let read = |path: &PathBuf| -> Result<_, Failure> {
+            let text = read_text(path)?;
+            let lines = read_plan(&text).map_err(|error| FileError::from_pddl(path, &text, error))?;
+            Ok((path.display().to_string(), text, lines))
+        };
+        self.plans.iter().map(read).collect()
     }
 }
 

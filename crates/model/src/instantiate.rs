@@ -34,7 +34,7 @@ pub enum InstantiateError {
         action: Symbol,
         /// The object's name.
         object: Symbol,
-        /// The parameter's type.
+        /// The parameter's type, or its types.
         expected: Symbol,
         /// The object's type.
         found: Symbol,

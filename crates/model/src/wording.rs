@@ -21,7 +21,7 @@ pub struct Wording {
 
 impl Wording {
     /// The formula, or its negation, with what its variables stand for where the predicate has these arguments.
-    pub(crate) fn say<T: Display>(&self, args: &[T], positive: bool) -> String {
+    pub fn say<T: Display>(&self, args: &[T], positive: bool) -> String {
         let formula = &self.formula;
         let mut text = if positive == self.positive { formula.to_string() } else { format!("(not {formula})") };
         let mut word = "where";

@@ -6,6 +6,7 @@
 //! mentions is declared, with the right number of arguments, and nothing is nested deeper than [`MOST_NESTED`]. An
 //! object that is an argument is of the right type; what a variable stands for can be.
 
+use std::collections::BTreeSet;
 use std::fmt;
 
 use typelift_model::{Atom, Symbol};
@@ -75,6 +76,24 @@ impl Formula {
     pub fn truth() -> Self {
         Self::And(Vec::new())
     }
+
+    /// Calls `each` with every predicate and whether it stands there unnegated, if the formula itself does (`positive`) or
+    /// not.
+    pub(crate) fn for_each_predicate<'f>(&'f self, positive: bool, each: &mut impl FnMut(&'f Symbol, bool)) {
+        match self {
+            Self::Atom(atom) => each(&atom.predicate, positive),
+            Self::Equal(..) => {}
+            Self::Not(inner) => inner.for_each_predicate(!positive, each),
+            Self::And(parts) | Self::Or(parts) => {
+                parts.iter().for_each(|part| part.for_each_predicate(positive, each));
+            }
+            Self::Imply(premise, conclusion) => {
+                premise.for_each_predicate(!positive, each);
+                conclusion.for_each_predicate(positive, each);
+            }
+            Self::Exists(_, body) | Self::Forall(_, body) => body.for_each_predicate(positive, each),
+        }
+    }
 }
 
 /// What an action does.
@@ -92,6 +111,28 @@ pub enum PddlEffect {
     When(Formula, Box<PddlEffect>),
     /// `(increase (total-cost) amount)`; only outside of `forall` and `when`.
     Increase(Amount),
+}
+
+impl PddlEffect {
+    /// The predicates that it may change.
+    pub(crate) fn changed(&self) -> BTreeSet<&Symbol> {
+        match self {
+            Self::And(parts) => parts.iter().flat_map(Self::changed).collect(),
+            Self::Add(atom) | Self::Delete(atom) => BTreeSet::from([&atom.predicate]),
+            Self::Forall(_, body) | Self::When(_, body) => body.changed(),
+            Self::Increase(_) => BTreeSet::new(),
+        }
+    }
+
+    /// Whether it says something of the total cost.
+    pub(crate) fn increases(&self) -> bool {
+        match self {
+            Self::And(parts) => parts.iter().any(Self::increases),
+            Self::Forall(_, body) | Self::When(_, body) => body.increases(),
+            Self::Increase(_) => true,
+            Self::Add(_) | Self::Delete(_) => false,
+        }
+    }
 }
 
 /// By how much an action increases the total cost.

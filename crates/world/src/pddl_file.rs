@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use typelift_model::{ActionModel, Task};
-use typelift_pddl::{CompileError, Domain, compile_domain, compile_problem, read_domain, read_problem};
+use typelift_pddl::{
+    CompileError, Domain, Meaning, Problem, compile_domain, compile_problem, read_domain, read_problem,
+};
 
 use crate::{FileError, read_text};
 
@@ -54,6 +56,41 @@ impl DomainFile {
             false => located(&self.path, &self.text, &error),
         })?;
         Ok((model, task))
+    }
+}
+
+/// A domain and a problem as they are written, not compiled.
+#[derive(Debug, Clone)]
+pub struct StatedProblem {
+    domain: Domain,
+    problem: Problem,
+    /// The domain's file, and the problem's.
+    files: [(PathBuf, String); 2],
+}
+
+impl StatedProblem {
+    /// Reads the texts of a domain and of a problem; errors call them by these paths.
+    ///
+    /// # Errors
+    /// [`FileError`] if they are not that.
+    pub fn from_texts(domain: (&Path, String), problem: (&Path, String)) -> Result<Self, FileError> {
+        let files = [domain, problem].map(|(path, text)| (path.to_owned(), text));
+        let [(domain_path, domain_text), (problem_path, problem_text)] = &files;
+        let domain = read_domain(domain_text).map_err(|e| FileError::from_pddl(domain_path, domain_text, e))?;
+        let problem =
+            read_problem(problem_text, &domain).map_err(|e| FileError::from_pddl(problem_path, problem_text, e))?;
+        Ok(Self { domain, problem, files })
+    }
+
+    /// What they mean.
+    ///
+    /// # Errors
+    /// [`FileError`] where they mean nothing, as [`Meaning::of`] says.
+    pub fn meaning(&self) -> Result<Meaning<'_>, FileError> {
+        Meaning::of(&self.domain, &self.problem).map_err(|error| {
+            let (path, text) = &self.files[usize::from(error.part.is_of_problem())];
+            located(path, text, &error)
+        })
     }
 }
 

@@ -10,7 +10,7 @@ use super::error::{CompileError, CompilePart};
 use super::inventions::Inventions;
 use super::strata::{dependencies, strata};
 use super::world::World;
-use crate::{Derived, Domain, Formula};
+use crate::{Derived, Domain};
 
 /// Adds the axioms of a condition of a derived predicate.
 pub(super) fn compile_derived(
@@ -47,28 +47,13 @@ pub(super) fn check_derived(domain: &Domain) -> Result<(), CompileError> {
     let derived: BTreeSet<&Symbol> = domain.derived.iter().map(|derived| &derived.head.name).collect();
     let mut dependencies = BTreeSet::new();
     for Derived { head, condition, .. } in &domain.derived {
-        mentioned(condition, true, &mut |predicate, positive| {
+        condition.for_each_predicate(true, &mut |predicate, positive| {
             if derived.contains(predicate) {
                 dependencies.insert((&head.name, predicate, positive));
             }
         });
     }
     strata(&dependencies).map(|_| ()).map_err(|cycle| cyclic(&cycle, |_| true, "depends on its own negation"))
-}
-
-/// Calls `each` with every predicate of a formula and whether it stands there unnegated.
-fn mentioned<'f>(formula: &'f Formula, positive: bool, each: &mut impl FnMut(&'f Symbol, bool)) {
-    match formula {
-        Formula::Atom(atom) => each(&atom.predicate, positive),
-        Formula::Equal(..) => {}
-        Formula::Not(inner) => mentioned(inner, !positive, each),
-        Formula::And(parts) | Formula::Or(parts) => parts.iter().for_each(|part| mentioned(part, positive, each)),
-        Formula::Imply(premise, conclusion) => {
-            mentioned(premise, !positive, each);
-            mentioned(conclusion, positive, each);
-        }
-        Formula::Exists(_, body) | Formula::Forall(_, body) => mentioned(body, positive, each),
-    }
 }
 
 /// Writes the strata into the axioms of a model. `stated` tells the predicates that are not invented.

@@ -91,12 +91,12 @@ pub struct CompileError {
 
 impl CompileError {
     /// An error about this part.
-    pub(super) fn new(part: &CompilePart, message: impl Into<String>) -> Self {
+    pub(crate) fn new(part: &CompilePart, message: impl Into<String>) -> Self {
         Self { part: part.clone(), message: message.into(), unsupported: false }
     }
 
     /// As an error about something that is not supported.
-    pub(super) fn not_supported(mut self) -> Self {
+    pub(crate) fn not_supported(mut self) -> Self {
         self.unsupported = true;
         self
     }

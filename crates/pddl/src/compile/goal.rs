@@ -10,9 +10,9 @@ use super::error::{CompileError, CompilePart};
 use super::expand::{Expansion, ground};
 use super::inventions::Inventions;
 use super::normal::Normal;
-use super::said::text;
 use super::world::World;
 use crate::Formula;
+use crate::formula_text::shortened;
 
 /// Compiles a goal for this initial state. Where it is clear that it can never hold, and no atom of the text says so, it
 /// is given an atom that never does.
@@ -30,7 +30,7 @@ pub(super) fn compile_goal(
         Some(literals) => literals,
         None => {
             let part = impossible_part(&mut block, goal, init, fluents)?;
-            let wording = Wording { formula: text(part).into(), positive: true, variables: Vec::new() };
+            let wording = Wording { formula: shortened(part).into(), positive: true, variables: Vec::new() };
             let predicate = inventions.predicate("unsatisfiable-goal", Some(wording));
             vec![Literal::positive(Atom { predicate, args: Vec::new() })]
         }

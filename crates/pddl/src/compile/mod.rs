@@ -42,7 +42,7 @@ use self::inventions::Inventions;
 use self::limits::Limits;
 use self::names::FreshNames;
 use self::world::World;
-use crate::{Amount, Domain, PddlEffect, Problem, Typed};
+use crate::{Domain, Problem, Typed};
 
 /// The function that the total cost is.
 const TOTAL_COST: &str = "total-cost";
@@ -93,7 +93,7 @@ fn domain_within(domain: &Domain, limits: Limits) -> Result<ActionModel, Compile
         actions.extend(schema::compile_action(action, world, &mut inventions, &derived, &mut names)?);
     }
     actions.sort_by(|a, b| a.name.cmp(&b.name));
-    if !domain.actions.iter().any(|action| increases(&action.effect)) {
+    if !domain.actions.iter().any(|action| action.effect.increases()) {
         let is_declared = domain.functions.iter().any(|function| function.name == *TOTAL_COST);
         let cost = if is_declared { Cost::from(0) } else { Cost::UNIT };
         actions.iter_mut().for_each(|action| action.cost = cost.clone());
@@ -173,14 +173,4 @@ fn add_objects(
         }
     }
     Ok(())
-}
-
-/// Whether an effect says something of the total cost.
-fn increases(effect: &PddlEffect) -> bool {
-    match effect {
-        PddlEffect::And(parts) => parts.iter().any(increases),
-        PddlEffect::Forall(_, body) | PddlEffect::When(_, body) => increases(body),
-        PddlEffect::Increase(Amount::Number(_) | Amount::Function(_)) => true,
-        PddlEffect::Add(_) | PddlEffect::Delete(_) => false,
-    }
 }
