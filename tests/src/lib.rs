@@ -1,5 +1,6 @@
 //! What the tests that cross rooms share; the tests themselves are in `tests/tests`.
 
+pub mod adl_tasks;
 pub mod by_hand;
 pub mod open;
 pub mod readers;

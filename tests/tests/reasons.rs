@@ -103,3 +103,15 @@ fn what_stands_for_many_alternatives_is_said_as_it_is_written() {
     let said = in_harbour(&sail, "", "(sailed s)");
     assert!(said.contains("it needs (or (sealed c) (on ?c7 s)) where ?c7 is any crate, which"), "{said}");
 }
+
+#[test]
+fn one_object_in_two_places_is_not_said_to_be_any_two() {
+    let sail = "(:action sail :parameters (?a - ship ?b - crate)
+        :precondition (and (ready ?a) (next-to ?b ?b)) :effect (sailed ?a))";
+    let domain = format!("{} {sail}", HARBOUR.replace("(:predicates", "(:predicates (next-to ?x ?y - crate)"));
+    assert_eq!(
+        reason(&domain, "(:init (ready s) (next-to c d)) (:goal (sailed s))"),
+        "sailed(s) cannot be reached: the nearest action is sail, but it needs next-to(any crate,the same crate), which \
+         cannot be reached"
+    );
+}

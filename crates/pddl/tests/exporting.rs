@@ -4,7 +4,7 @@ use typelift_model::{
     ActionModel, ActionSchema, Axiom, Cost, Effect, Goal, GroundAtom, Hierarchy, LiftedAtom, LiftedCall, Literal,
     Parameter, Provenance, Replacement, State, Symbol, Task, Term,
 };
-use typelift_pddl::{ExportError, ExportOptions, Exported, Level, export, read_domain, read_problem};
+use typelift_pddl::{ExportError, ExportOptions, Exported, Level, compile_domain, export, read_domain, read_problem};
 
 fn lifted(text: &str) -> LiftedAtom {
     LiftedAtom::parse(text).expect(text)
@@ -331,6 +331,15 @@ fn everything_that_models_have() {
     for part in ["(= (total-cost) 0)\n    (= (way bob home) 7))", "(:metric minimize (total-cost))"] {
         assert!(problem.contains(part), "{part}\n{problem}");
     }
+}
+
+#[test]
+fn a_formula_that_strips_cannot_say_is_refused_in_its_own_words() {
+    let text = "(define (domain d) (:types ward bed) (:predicates (made ?b - bed) (open ?w - ward))
+        (:action unlock :parameters (?w - ward) :precondition (forall (?b - bed) (made ?b)) :effect (open ?w)))";
+    let model = compile_domain(&read_domain(text).expect("a domain")).expect("a model");
+    let refused = exported(&model, None, Level::Strips).expect_err("it is not STRIPS").to_string();
+    assert_eq!(refused, "(forall (?b - bed) (made ?b)) is more than a conjunction, which STRIPS cannot say");
 }
 
 #[test]

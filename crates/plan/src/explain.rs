@@ -4,6 +4,7 @@
 //! that it is reached so means nothing. An action that is never used has no schema, and one with alternatives has several, so
 //! "no action can add it" is true where "no action adds it" may not be, and what the nearest schema needs is said of one case.
 
+use std::collections::BTreeSet;
 use std::fmt::{self, Display};
 
 use serde::{Deserialize, Serialize};
@@ -350,13 +351,18 @@ impl Context<'_> {
         reached.into_iter().any(|fact| atom.bind(fact, &mut binding, is_of_type).is_some())
     }
 
-    /// A lifted atom in the text's words, with bound parameters written as objects and others as `any TYPE`.
+    /// A lifted atom in the text's words, with bound parameters written as objects and others as `any TYPE`, or
+    /// `the same TYPE` where they come again.
     fn written(&self, parameters: &[Parameter], atom: &LiftedAtom, binding: &[Option<&Symbol>]) -> String {
+        let mut mentioned = BTreeSet::new();
         let atom = atom.map(|term| match term {
             Term::Const(name) => name.to_string(),
             Term::Param(p) => match binding[*p as usize] {
                 Some(object) => object.to_string(),
-                None => format!("any {}", self.model.hierarchy.name(parameters[*p as usize].ty)),
+                None => {
+                    let which = if mentioned.insert(*p) { "any" } else { "the same" };
+                    format!("{which} {}", self.model.hierarchy.name(parameters[*p as usize].ty))
+                }
             },
         });
         self.model.in_words(&atom, true)

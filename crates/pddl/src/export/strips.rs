@@ -39,7 +39,11 @@ pub(super) fn compile(model: &ActionModel, task: Option<&Task>) -> Result<Compil
 fn refuse_beyond(model: &ActionModel) -> Result<(), ExportError> {
     let refused = |subject: &Symbol, feature| Err(ExportError::Unsupported { subject: subject.clone(), feature });
     if let Some(axiom) = model.axioms.first() {
-        return refused(&axiom.head.predicate, "is a derived predicate");
+        // No file has the name of a predicate that stands for a formula.
+        return match model.wordings.get(&axiom.head.predicate) {
+            Some(wording) => refused(&Symbol::new(&wording.formula), "is more than a conjunction"),
+            None => refused(&axiom.head.predicate, "is a derived predicate"),
+        };
     }
     for action in &model.actions {
         if action.effects.iter().any(|effect| !effect.parameters.is_empty()) {

@@ -97,6 +97,11 @@ impl<'p> Meaning<'p> {
         &self.problem.goal
     }
 
+    /// The objects and constants.
+    pub fn objects(&self) -> impl Iterator<Item = &Symbol> {
+        self.objects.keys()
+    }
+
     /// The type of an object or a constant.
     pub fn type_of(&self, object: &Symbol) -> Option<&Symbol> {
         self.objects.get(object).map(|ty| self.hierarchy.name(*ty))
