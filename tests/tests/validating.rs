@@ -71,6 +71,16 @@ fn in_a_row(blocks: &str, init: &str, goal: &str, plan: &str) -> Result<u64, Str
 }
 
 #[test]
+fn the_total_cost_goes_on_from_where_it_begins() {
+    let block = "(:action step :parameters (?a ?b - cell) :precondition (and (on ?a) (next ?a ?b))
+        :effect (and (not (on ?a)) (on ?b) (increase (total-cost) (way ?a ?b))))";
+    let cost = |begins| {
+        in_a_row(block, &format!("(on a) {begins} (= (way a b) 3) (= (way b c) 4)"), "(on c)", "(step a b) (step b c)")
+    };
+    assert_eq!([cost(""), cost("(= (total-cost) 0)"), cost("(= (total-cost) 10)")], [Ok(7), Ok(7), Ok(17)]);
+}
+
+#[test]
 fn what_is_derived_follows_anew_after_each_step() {
     let blocks = "(:derived (left-of ?a ?b - cell) (or (next ?a ?b) (exists (?c - cell) (and (left-of ?a ?c) (next ?c ?b)))))
         (:derived (dark) (not (exists (?c - cell) (lit ?c))))

@@ -8,14 +8,15 @@ use typelift_pddl::{Action, Atoms, Meaning, PlanLine};
 
 use crate::Invalid;
 
-/// Replays a plan from the problem's initial state, and returns what it costs.
+/// Replays a plan from the problem's initial state, and returns the total cost in the end: as in VAL, what it is at the
+/// beginning counts.
 ///
 /// # Errors
 /// How many steps could be taken, and [`Invalid`], which names the first that cannot be, or the first part of the goal that
 /// is missed.
 pub fn validate_stated(meaning: &Meaning<'_>, lines: &[PlanLine]) -> Result<u64, (usize, Invalid)> {
     let mut atoms = meaning.initial();
-    let mut total = 0_u64;
+    let mut total = meaning.initial_cost();
     for (taken, line) in lines.iter().enumerate() {
         let (after, cost) = take(meaning, &atoms, taken + 1, line).map_err(|invalid| (taken, invalid))?;
         atoms = after;

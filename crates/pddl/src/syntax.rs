@@ -14,6 +14,9 @@ use typelift_model::{Atom, Symbol};
 /// How deep formulas and effects may be nested: whatever walks them may recurse.
 pub const MOST_NESTED: usize = 250;
 
+/// The function that the total cost is.
+pub(crate) const TOTAL_COST: &str = "total-cost";
+
 /// A variable, an object or a constant with its type.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Typed {

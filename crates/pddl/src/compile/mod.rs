@@ -42,10 +42,8 @@ use self::inventions::Inventions;
 use self::limits::Limits;
 use self::names::FreshNames;
 use self::world::World;
+use crate::syntax::TOTAL_COST;
 use crate::{Domain, Problem, Typed};
-
-/// The function that the total cost is.
-const TOTAL_COST: &str = "total-cost";
 
 /// The model of a domain: given actions, axioms, constants.
 ///

@@ -14,6 +14,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use typelift_model::{Atom, GroundAtom, Hierarchy, Symbol, TypeId};
 
 use self::strata::strata;
+use crate::syntax::TOTAL_COST;
 use crate::{Action, CompileError, CompilePart, Derived, Domain, Formula, Problem, Typed};
 
 pub use changes::NoValue;
@@ -69,7 +70,7 @@ impl<'p> Meaning<'p> {
             return Err(CompileError::new(&CompilePart::Init, message));
         }
         let says_costs = domain.actions.iter().any(|action| action.effect.increases());
-        let declares_costs = domain.functions.iter().any(|function| function.name == "total-cost");
+        let declares_costs = domain.functions.iter().any(|function| function.name == *TOTAL_COST);
         Ok(Self {
             domain,
             problem,
@@ -90,6 +91,12 @@ impl<'p> Meaning<'p> {
     /// What holds at the beginning, derived or not.
     pub fn initial(&self) -> Atoms {
         self.with_derived(self.problem.init.iter().cloned().collect())
+    }
+
+    /// The total cost at the beginning, which is 0 in most problems.
+    pub fn initial_cost(&self) -> u64 {
+        let stated = self.values.iter().find(|(function, _)| function.predicate == *TOTAL_COST);
+        stated.filter(|_| self.has_costs).map_or(0, |(_, value)| u64::from(*value))
     }
 
     /// The problem's goal.
