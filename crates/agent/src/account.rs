@@ -58,6 +58,9 @@ pub struct Failure {
     pub result: StepResult,
     /// The environment's or the person's reason, if given.
     pub reason: Option<String>,
+    /// What was expected of it and did not come about: what was to hold, and after `not` what was to hold no longer.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub missed: Vec<String>,
     /// Whether it rests on an imagined action.
     pub imagined: bool,
     /// What is to blame, as far as was known then, and excluded therefore.

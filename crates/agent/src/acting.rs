@@ -13,7 +13,7 @@ use crate::deed::{Deed, Failed};
 use crate::episode::{Episode, EpisodeError, Phase};
 use crate::event::{Event, Observer};
 use crate::execution::Execution;
-use crate::monitor::{StepResult, compare};
+use crate::monitor::{Comparison, StepResult, compare};
 use crate::objection::Objection;
 use crate::turn::Command;
 
@@ -52,7 +52,8 @@ impl Episode {
         self.account.actions += 1;
         execution.taken = execution.next_step + 1;
         let compared = |expected| compare(&expected, &self.state, &after, execution.expects_changes());
-        let seen = execution.expected(&self.state).map_or(Verdict::Otherwise, compared);
+        let unexpected = Comparison { verdict: Verdict::Otherwise, missed: Vec::new() };
+        let Comparison { verdict: seen, missed } = execution.expected(&self.state).map_or(unexpected, compared);
         let verdict = match excuse {
             Some(excuse) if seen == Verdict::Nothing || excuse == Verdict::TimedOut => match seen {
                 Verdict::AsExpected => seen,
@@ -70,9 +71,9 @@ impl Episode {
         if let Some(record) = self.record_of(&before, executed, reason.clone(), verdict) {
             observer.record(&record);
         }
-        self.report_step(result, reason.clone(), &before, observer);
+        self.report_step(result, reason.clone(), missed.clone(), &before, observer);
         if verdict != Verdict::AsExpected {
-            return self.fail(result, reason, &before, observer);
+            return self.fail(result, reason, missed, &before, observer);
         }
         if let Some(deed) = deed {
             self.experience.succeeded(deed);
@@ -107,7 +108,14 @@ impl Episode {
     }
 
     /// Tells of the next step, which led from the state `before` to the current one.
-    fn report_step(&self, result: StepResult, reason: Option<String>, before: &State, observer: &mut dyn Observer) {
+    fn report_step(
+        &self,
+        result: StepResult,
+        reason: Option<String>,
+        missed: Vec<String>,
+        before: &State,
+        observer: &mut dyn Observer,
+    ) {
         let Some(execution) = &self.execution else { return };
         let Some(step) = execution.step() else { return };
         observer.event(&Event::Stepped {
@@ -119,6 +127,7 @@ impl Episode {
             reason,
             added: before.added(&self.state).cloned().collect(),
             deleted: before.deleted(&self.state).cloned().collect(),
+            missed,
         });
     }
 
@@ -127,6 +136,7 @@ impl Episode {
         &mut self,
         result: StepResult,
         reason: Option<String>,
+        missed: Vec<String>,
         before: &State,
         observer: &mut dyn Observer,
     ) -> Result<Command, EpisodeError> {
@@ -144,7 +154,7 @@ impl Episode {
             }
             return Ok(self.command(Phase::AwaitingResult));
         }
-        self.note_failure(result, reason, None, before, observer);
+        self.note_failure(result, reason, missed, None, before, observer);
         self.again(observer)
     }
 
@@ -172,9 +182,9 @@ impl Episode {
         }
         execution.next_step = at;
         let objection = objection_to(execution, objection, &self.state);
-        self.report_step(StepResult::Rejected, Some(reason.clone()), &self.state, observer);
+        self.report_step(StepResult::Rejected, Some(reason.clone()), Vec::new(), &self.state, observer);
         let state = self.state.clone();
-        self.note_failure(StepResult::Rejected, Some(reason), objection, &state, observer);
+        self.note_failure(StepResult::Rejected, Some(reason), Vec::new(), objection, &state, observer);
         self.again(observer)
     }
 
@@ -183,6 +193,7 @@ impl Episode {
         &mut self,
         result: StepResult,
         reason: Option<String>,
+        missed: Vec<String>,
         objection: Option<Objection>,
         before: &State,
         observer: &mut dyn Observer,
@@ -214,6 +225,7 @@ impl Episode {
             record: matches!(result, StepResult::Tried(_)).then_some(self.account.actions),
             result,
             reason,
+            missed,
             imagined: step.imagined.is_some(),
             suspects,
         });

@@ -68,6 +68,10 @@ pub enum Event<P = Plan> {
         added: Vec<GroundAtom>,
         /// What it deleted.
         deleted: Vec<GroundAtom>,
+        /// What was expected of it and did not come about: what was to hold, and after `not` what was to hold no longer.
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        #[cfg_attr(feature = "schema", schemars(default))]
+        missed: Vec<String>,
     },
     /// A failed step is tried again.
     Retried {
@@ -86,7 +90,7 @@ pub enum Event<P = Plan> {
     Drifted {
         /// The step's number, from 1.
         step: usize,
-        /// The precondition that no longer holds.
+        /// The precondition that no longer holds, or the name of an entity that is there no more.
         missing: String,
     },
     /// Something is given up since nothing else was left; ground actions that failed stay banned.
@@ -117,8 +121,8 @@ impl<P: Clone> Event<P> {
                 Event::PlanningEnded { expansions, ground_actions, imagined, found }
             }
             Self::Proposed { proposal, plan } => Event::Proposed { proposal, plan: tell(&plan) },
-            Self::Stepped { proposal, step, call, imagined, result, reason, added, deleted } => {
-                Event::Stepped { proposal, step, call, imagined, result, reason, added, deleted }
+            Self::Stepped { proposal, step, call, imagined, result, reason, added, deleted, missed } => {
+                Event::Stepped { proposal, step, call, imagined, result, reason, added, deleted, missed }
             }
             Self::Retried { call } => Event::Retried { call },
             Self::Excluded { suspect, reason } => Event::Excluded { suspect, reason },

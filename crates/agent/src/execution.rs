@@ -54,9 +54,14 @@ impl Execution {
         self.schema()?.instantiate(&self.step()?.objects, state, &self.model.hierarchy).ok()
     }
 
-    /// Why the next step cannot be taken in this state, if something is missing.
+    /// What keeps the next step from being taken in this state, if something does: a precondition, or an entity that is
+    /// there no more.
     pub(crate) fn missing_precondition(&self, state: &State) -> Option<String> {
-        let Some(action) = self.expected(state) else { return Some("an object of it".to_owned()) };
+        let Some(action) = self.expected(state) else {
+            let objects = &self.step()?.objects;
+            let gone = objects.iter().find(|object| !state.objects.contains_key(*object)).or(objects.first())?;
+            return Some(gone.to_string());
+        };
         let (atom, positive) = action.unmet(state).next()?;
         Some(format!("{}{atom}", if *positive { "" } else { "not " }))
     }

@@ -30,7 +30,7 @@ pub use deed::{Deed, Failed, Participant, Success};
 pub use episode::{Episode, EpisodeError};
 pub use event::{Event, Observer, WhyNoOther};
 pub use experience::{Experience, Remembered};
-pub use monitor::{StepResult, compare};
+pub use monitor::{Comparison, StepResult, compare};
 pub use objection::Objection;
 pub use options::Options;
 pub use propose::{Proposal, ProposeError, Widened, propose, widened};

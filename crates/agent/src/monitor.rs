@@ -75,28 +75,82 @@ impl<'de> Deserialize<'de> for StepResult {
     }
 }
 
+/// What came of an action, and what of its expected effect did not happen.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Comparison {
+    /// What came of it.
+    pub verdict: Verdict,
+    /// The literals that did not come about: what was to hold, then what was to hold no longer.
+    pub missed: Vec<String>,
+}
+
 /// Compares an executed action with the states around it.
 ///
 /// Every atom of the expected effect must be in the observed change; additional changes are tolerated. Every effect
 /// of a learned action was a change when it was observed, so `strict_effects` expects each to be a change now; for
 /// given actions only what would change is expected. An atom that is unknown before or after counts neither way.
-pub fn compare(action: &GroundAction, before: &State, after: &State, strict_effects: bool) -> Verdict {
+pub fn compare(action: &GroundAction, before: &State, after: &State, strict_effects: bool) -> Comparison {
     let wanted = |atom: &&GroundAtom, adds: bool| {
         let known = !before.is_unknown(atom) && !after.is_unknown(atom);
         known && (strict_effects || before.holds(atom) != adds)
     };
     let added = |atom: &GroundAtom| !before.holds(atom) && after.holds(atom);
     let deleted = |atom: &GroundAtom| before.holds(atom) && !after.holds(atom);
-    let adds: Vec<bool> = action.adds.iter().filter(|a| wanted(a, true)).map(added).collect();
-    let deletes: Vec<bool> = action.deletes.iter().filter(|a| wanted(a, false)).map(deleted).collect();
-    let observed: Vec<bool> = adds.into_iter().chain(deletes).collect();
-    if observed.iter().all(|&seen| seen) {
+    let adds: Vec<&GroundAtom> = action.adds.iter().filter(|atom| wanted(atom, true)).collect();
+    let deletes: Vec<&GroundAtom> = action.deletes.iter().filter(|atom| wanted(atom, false)).collect();
+    let not_added = adds.iter().filter(|atom| !added(atom)).map(ToString::to_string);
+    let not_deleted = deletes.iter().filter(|atom| !deleted(atom)).map(|atom| format!("not {atom}"));
+    let missed: Vec<String> = not_added.chain(not_deleted).collect();
+    let verdict = if missed.is_empty() {
         Verdict::AsExpected
     } else if before.objects == after.objects && before.added(after).chain(before.deleted(after)).next().is_none() {
         Verdict::Nothing
-    } else if observed.iter().any(|&seen| seen) {
+    } else if missed.len() < adds.len() + deletes.len() {
         Verdict::Partly
     } else {
         Verdict::Otherwise
+    };
+    Comparison { verdict, missed }
+}
+
+#[cfg(test)]
+mod tests {
+    use typelift_model::{ActionSchema, Cost, Effect, Hierarchy, LiftedAtom, LiftedCall, Literal, Provenance, Symbol};
+
+    use super::*;
+
+    fn state(atoms: &[&str]) -> State {
+        let atoms = atoms.iter().map(|text| GroundAtom::parse(text).expect("an atom")).collect();
+        State { atoms, ..State::default() }
+    }
+
+    #[test]
+    fn what_did_not_come_about_is_named() {
+        let effect =
+            |text, positive| Effect::always(Literal { atom: LiftedAtom::parse(text).expect("an atom"), positive });
+        let schema = ActionSchema {
+            name: Symbol::new("unload"),
+            call: LiftedCall { name: Symbol::new("unload"), args: Vec::new() },
+            parameters: Vec::new(),
+            preconditions: Vec::new(),
+            distinct: Vec::new(),
+            effects: vec![effect("empty()", true), effect("lit()", true), effect("shut()", false)],
+            cost: Cost::UNIT,
+            strict: true,
+            named_by_call: false,
+            provenance: Provenance::Given,
+        };
+        let before = state(&["shut()"]);
+        let action = schema.instantiate(&[], &before, &Hierarchy::default()).expect("it fits");
+        let cases: [(&[&str], Verdict, &[&str]); 4] = [
+            (&["empty()", "lit()", "more()"], Verdict::AsExpected, &[]),
+            (&["empty()", "shut()"], Verdict::Partly, &["lit()", "not shut()"]),
+            (&["shut()"], Verdict::Nothing, &["empty()", "lit()", "not shut()"]),
+            (&["shut()", "more()"], Verdict::Otherwise, &["empty()", "lit()", "not shut()"]),
+        ];
+        for (after, verdict, missed) in cases {
+            let found = compare(&action, &before, &state(after), true);
+            assert_eq!((found.verdict, found.missed), (verdict, missed.iter().map(ToString::to_string).collect()));
+        }
     }
 }

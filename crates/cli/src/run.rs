@@ -200,7 +200,7 @@ impl Run {
             let view = AccountView::of(&name, &account, &episode, narrator.planning.as_secs_f64());
             writeln!(out, "{}", serde_json::to_string(&view).unwrap_or_default())?;
         } else {
-            for line in summary(&name, &account, narrator.planning.as_millis()) {
+            for line in summary(&name, &account, narrator.planning.as_millis(), narrator.aloud) {
                 writeln!(out, "{}", painted(&line))?;
             }
         }

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 use typelift_agent::{Account, Ending, Episode, Failure, LastResorts, StepResult, Suspect};
 use typelift_model::{GroundCall, Plan, Symbol};
 use typelift_plan::Explanation;
+use typelift_world::Verdict;
 
 use crate::plan::plan_size;
 use crate::text::{Role, Text, count};
@@ -68,6 +69,9 @@ pub struct FailureView {
     pub result: StepResult,
     /// The environment's or the person's reason, if given.
     pub reason: Option<String>,
+    /// What was expected of it and did not come about: what was to hold, and after `not` what was to hold no longer.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub missed: Vec<String>,
     /// Whether the step was imagined.
     pub imagined: bool,
     /// What is to blame, as far as was known then, and excluded therefore.
@@ -129,6 +133,7 @@ impl FailureView {
             record: failure.record,
             result: failure.result,
             reason: failure.reason.clone(),
+            missed: failure.missed.clone(),
             imagined: failure.imagined,
             suspects: failure.suspects.clone(),
         }
@@ -169,13 +174,14 @@ fn why_not(ending: &Ending) -> Option<String> {
     })
 }
 
-/// The account of a task in lines: how it ended, what failed and was excluded, and why it is not solved.
-pub fn summary(task: &str, account: &Account, planning_ms: u128) -> Vec<Text> {
+/// The account of a task in lines: how it ended, what failed and was excluded, unless that was `told` as it happened, and
+/// why it is not solved.
+pub fn summary(task: &str, account: &Account, planning_ms: u128, told: bool) -> Vec<Text> {
     let mut lines = vec![headline(task, account, planning_ms)];
-    for failure in &account.failures {
+    for failure in account.failures.iter().filter(|_| !told) {
         let place = format!("proposal {}, step {}", failure.proposal, failure.step);
         let reason = failure.reason.as_ref().map(|reason| format!(" ({reason})")).unwrap_or_default();
-        let what = format!("  {}: {}{reason}", failure.call, failure.result.phrase());
+        let what = format!("  {}: {}{reason}", failure.call, outcome(failure.result, &failure.missed));
         lines.push(Text::new().plain("  ").with(Role::Aside, place).plain(what));
         lines.extend(failure.suspects.iter().map(|suspect| Text::new().plain(format!("    excluded {suspect}"))));
     }
@@ -208,5 +214,13 @@ fn headline(task: &str, account: &Account, planning_ms: u128) -> Text {
             line.with(Role::Good, "solved").plain(format!(": {}, {counted}", plan_size(plan)))
         }
         _ => line.with(Role::Bad, "not solved").plain(format!(": {counted}")),
+    }
+}
+
+/// What came of a step, in words; where only part of the expected effect happened, which part did not.
+pub(crate) fn outcome(result: StepResult, missed: &[String]) -> String {
+    match result {
+        StepResult::Tried(Verdict::Partly) => format!("{} (missing: {})", result.phrase(), missed.join(", ")),
+        _ => result.phrase().to_owned(),
     }
 }

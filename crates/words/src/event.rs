@@ -3,6 +3,7 @@
 use typelift_agent::{Event, StepResult, WhyNoOther};
 use typelift_world::Verdict;
 
+use crate::account::outcome;
 use crate::plan::imagined_part;
 use crate::text::{Role, Text, count};
 
@@ -16,7 +17,7 @@ pub fn line(event: &Event) -> Option<Text> {
             let (steps, imagined) = (count(plan.len() as u64, "step"), imagined_part(plan.imagined_steps() as u64));
             Text::new().plain(format!("  proposal {proposal}: {steps}{imagined}"))
         }
-        Event::Stepped { step, call, imagined, result, reason, .. } => {
+        Event::Stepped { step, call, imagined, result, reason, missed, .. } => {
             let mut line = Text::new().plain(format!("  {step:>3}  {call}"));
             if *imagined {
                 line = line.plain("  ").with(Role::Imagined, "imagined");
@@ -26,14 +27,15 @@ pub fn line(event: &Event) -> Option<Text> {
                 line.with(Role::Good, "ok")
             } else {
                 let reason = reason.as_ref().map(|reason| format!(": {reason}"));
-                line.with(Role::Bad, result.phrase()).plain(reason.unwrap_or_default())
+                line.with(Role::Bad, outcome(*result, missed)).plain(reason.unwrap_or_default())
             }
         }
         Event::Retried { .. } => indented().with(Role::Aside, "again"),
         Event::Excluded { suspect, .. } => indented().with(Role::Warning, "excluded").plain(format!(": {suspect}")),
         Event::Drifted { missing, .. } => indented().plain(match missing.strip_prefix("not ") {
             Some(atom) => format!("the world changed by itself: {atom} holds now"),
-            None => format!("the world changed by itself: {missing} no longer holds"),
+            None if missing.contains('(') => format!("the world changed by itself: {missing} no longer holds"),
+            None => format!("the world changed by itself: {missing} is there no more"),
         }),
         Event::LastResort { resort } => indented().plain(format!("nothing left to try: {}", resort.phrase())),
         Event::NoOtherPlan { why, .. } => indented().plain(match why {
@@ -42,4 +44,36 @@ pub fn line(event: &Event) -> Option<Text> {
             WhyNoOther::Stopped(stop) => format!("no other plan was found: {stop}"),
         }),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use typelift_model::{GroundCall, Symbol};
+
+    use super::*;
+
+    #[test]
+    fn a_part_that_is_missing_is_named_and_so_is_what_is_gone() {
+        let stepped = |verdict, reason: Option<&str>| Event::Stepped {
+            proposal: 1,
+            step: 2,
+            call: GroundCall { name: Symbol::new("unload"), args: vec![Symbol::new("bin_1")] },
+            imagined: false,
+            result: StepResult::Tried(verdict),
+            reason: reason.map(str::to_owned),
+            added: Vec::new(),
+            deleted: Vec::new(),
+            missed: vec!["empty(bin_1)".to_owned(), "not shut(bin_1)".to_owned()],
+        };
+        let said = |event: &Event| line(event).expect("it is told").to_string();
+        assert_eq!(
+            said(&stepped(Verdict::Partly, Some("it jams"))),
+            "    2  unload(bin_1)  only part of the expected effect happened (missing: empty(bin_1), not shut(bin_1)): it jams"
+        );
+        assert_eq!(said(&stepped(Verdict::Nothing, None)), "    2  unload(bin_1)  nothing changed");
+        let drifted = |missing: &str| said(&Event::Drifted { step: 2, missing: missing.to_owned() });
+        assert_eq!(drifted("shut(bin_1)"), "       the world changed by itself: shut(bin_1) no longer holds");
+        assert_eq!(drifted("not shut(bin_1)"), "       the world changed by itself: shut(bin_1) holds now");
+        assert_eq!(drifted("bin_1"), "       the world changed by itself: bin_1 is there no more");
+    }
 }
