@@ -1,9 +1,10 @@
 //! What is to blame for a failure: a function of the failure and of everything else that was tried.
 //!
 //! An object of the call that has never worked there in this instance of the world comes first; where all have, the
-//! types that have never worked in that place; then the pairs of types that have never worked together. Who acts is
-//! never to blame, and who the goal speaks of only together with another. A precondition is to blame only where a person
-//! names it. Since what worked later counts as well, a thing that works again is no longer to blame.
+//! types that have never worked in that place; then the pairs of types that have never worked together, or, where the
+//! call does not name both, the object of such a pair. Who acts is never to blame, and who the goal speaks of only
+//! together with another. A precondition is to blame only where a person names it. Since what worked later counts as
+//! well, a thing that works again is no longer to blame.
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
@@ -134,8 +135,15 @@ fn by_elimination(failed: &Failed, worked: &[Success]) -> Vec<Suspect> {
     let others = || deed.participants.iter().filter(|other| !failed.actors.contains(&other.object));
     let pairs = suspected.iter().flat_map(|&one| others().map(move |other| [one, other]));
     let apart = pairs.filter(|[one, other]| one.object != other.object && !known.types_worked(&[one, other]));
-    let apart: BTreeSet<Suspect> = apart.filter_map(|pair| types(deed, pair.to_vec())).collect();
-    apart.into_iter().collect()
+    let (mut together, mut unnamed) = (BTreeSet::new(), Vec::new());
+    for [one, other] in apart {
+        match types(deed, vec![one, other]) {
+            Some(types) => _ = together.insert(types),
+            None => unnamed.push(one),
+        }
+    }
+    // Types are avoided at places of a call. Of a pair that the call does not name, the object is all that can be avoided.
+    if together.is_empty() { broken(failed, unnamed) } else { together.into_iter().collect() }
 }
 
 /// Who takes part and neither acts nor is in the goal.

@@ -182,6 +182,19 @@ mod tests {
     }
 
     #[test]
+    fn a_pair_that_the_call_does_not_name_is_avoided_by_its_object() {
+        // The call names a switch; the machine and what is in it take part without being named.
+        let pressed = |food: &str| {
+            let mut deed = deed("here", "cut", "saw_1", food);
+            deed.participants.iter_mut().skip(1).for_each(|participant| participant.place = None);
+            deed
+        };
+        let failure = failed(pressed("sheet_1"), &["sheet_1"], None);
+        assert_eq!(blamed(&failure, &[pressed("dowel_1")]), ["saw_1 from use"]);
+        assert!(blamed(&failure, &[pressed("dowel_1"), pressed("sheet_2")]).is_empty(), "saws cut sheets");
+    }
+
+    #[test]
     fn an_object_is_known_in_its_instance_a_type_everywhere() {
         let failure = failed(deed("here", "cut", "board_1", "nut_1"), &["nut_1"], None);
         assert_eq!(blamed(&failure, &[deed("there", "cut", "board_1", "leek_1")]), ["board_1 from use"]);

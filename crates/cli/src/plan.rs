@@ -48,7 +48,7 @@ pub(crate) struct Plan {
     /// The task: a goal and a state to start from; or a problem of the PDDL domain
     #[arg(index = 2)]
     task: PathBuf,
-    /// Find so many plans of which none makes all calls of one before it
+    /// Find N plans: each leaves out at least one action of every plan before it
     #[arg(long, value_name = "N", default_value_t = 1, allow_negative_numbers = true,
         value_parser = clap::value_parser!(u64).range(1..=1000), conflicts_with = "planner")]
     plans: u64,

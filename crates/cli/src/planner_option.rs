@@ -16,7 +16,7 @@ pub(crate) struct PlannerOption {
     /// astar-lmcut, astar-blind [default: ordered-first for learned models, lama for PDDL]
     #[arg(long, value_name = "SEARCH", conflicts_with = "planner")]
     search: Option<Strategy>,
-    /// Have this command plan; it is given {domain} and {problem}, and writes {plan}
+    /// Plan with another planner: {domain}, {problem} and {plan} stand for the paths of what it reads and writes
     #[arg(long, value_name = "COMMAND")]
     planner: Option<String>,
     /// How much of PDDL that planner knows

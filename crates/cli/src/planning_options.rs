@@ -81,7 +81,7 @@ impl ModelArguments {
 pub(crate) struct PlanningOptions {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
-    /// Print JSON instead: one object a task
+    /// Print JSON instead, one object for each task
     #[arg(long)]
     pub(crate) json: bool,
     #[command(flatten)]

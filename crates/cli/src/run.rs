@@ -54,7 +54,7 @@ pub(crate) struct Run {
     /// Act in the built-in kitchen simulator
     #[arg(long)]
     kitchen: bool,
-    /// Act in the environment that this command is: it speaks env/1 on its standard input and output
+    /// Start this command as the environment: it speaks env/1 on its standard input and output; there is no shell
     #[arg(long, value_name = "COMMAND", value_parser = clap::builder::NonEmptyStringValueParser::new())]
     env: Option<String>,
     #[command(flatten)]
@@ -62,8 +62,8 @@ pub(crate) struct Run {
     /// The seed that the environment is reset with, instead of the task's
     #[arg(long, value_name = "N", value_parser = parse_whole, allow_negative_numbers = true)]
     seed: Option<u64>,
-    /// What the environment stands for, as the name of a room: what was found broken in one of this name, in an earlier
-    /// task, is not used in it again [default: as the environment says, or one for each scenario and seed]
+    /// The name of the place that is acted in: what fails there is avoided in later tasks of the same place
+    /// [default: as the environment says, or one for each scenario and seed]
     #[arg(long, value_name = "NAME")]
     instance: Option<String>,
     /// Ask before a plan is executed: only one that rests on imagined actions, or any [default: imagined]
@@ -72,7 +72,7 @@ pub(crate) struct Run {
     /// After a failure set the environment back and plan from the start, as the paper does
     #[arg(long)]
     restart: bool,
-    /// Try a failed step again so often [default: 1, with --restart 0]
+    /// Try a failed step again N times [default: 1, with --restart 0]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     retries: Option<u32>,
     /// Propose at most this many plans a task

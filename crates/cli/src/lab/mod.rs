@@ -19,7 +19,7 @@ use hierarchy::LabHierarchy;
 use report::LabReport;
 use table::LabTable;
 
-/// Run the paper's experiments again, and set ours beside the published numbers
+/// Run the paper's experiments again, and compare with the published numbers
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example:
   typelift lab table --quick -o T

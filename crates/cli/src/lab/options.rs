@@ -97,7 +97,7 @@ pub(super) struct RoomOptions {
 /// The rooms of an experiment that runs everything several times.
 #[derive(Debug, clap::Args)]
 pub(super) struct RepeatedRoomOptions {
-    /// Run everything so often, each time in a room of its own; 1 with --quick
+    /// Repeat everything N times, each time in another room; 1 with --quick
     #[arg(long, value_name = "N", value_parser = parse_runs, allow_negative_numbers = true)]
     runs: Option<u64>,
     #[command(flatten)]

@@ -17,7 +17,7 @@ use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::style::{BAD, DIM, GOOD, HEAD, wrapped};
 
-/// Everything on one page, and each of the paper's claims held against it
+/// Everything on one page, and whether each of the paper's claims holds
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   typelift lab report -o results
