@@ -24,6 +24,7 @@
 //! ```
 #![deny(missing_docs)]
 
+mod actor;
 mod canonical;
 mod cluster;
 mod draft;
@@ -158,7 +159,7 @@ pub fn learn(hierarchy: &Hierarchy, observations: &Observations, options: &Optio
         ..ActionModel::default()
     };
     model.actor = match &options.actor {
-        None => model.default_actor(),
+        None => actor::demonstrated_actor(observations, hierarchy)?,
         Some(Actor::Nobody) => None,
         Some(Actor::Type(name)) => {
             Some(hierarchy.id(name.as_str()).ok_or_else(|| LearnError::UnknownType(name.clone()))?)

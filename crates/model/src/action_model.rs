@@ -126,31 +126,6 @@ impl ActionModel {
             calls: PddlNames::fold("action", by_call.map(|a| &a.call.name))?,
         })
     }
-
-    /// The type that fills argument 0 of every action and no other parameter: the default actor. With calls of a
-    /// single name nothing tells who acts, and there is none.
-    pub fn default_actor(&self) -> Option<TypeId> {
-        let h = &self.hierarchy;
-        let first = |action: &ActionSchema| match action.call.args.first()? {
-            Term::Param(index) => Some(*index),
-            Term::Const(_) => None,
-        };
-        let mut actor: Option<TypeId> = None;
-        for action in self.actions.iter().filter(|a| a.provenance.imagined().is_none()) {
-            let ty = action.parameters[first(action)? as usize].ty;
-            actor = Some(actor.map_or(ty, |known| h.lca(known, ty)));
-        }
-        let actor = actor?;
-        let calls: BTreeSet<&Symbol> = self.actions.iter().map(|a| &a.call.name).collect();
-        if calls.len() < 2 {
-            return None;
-        }
-        let alone = self.actions.iter().all(|action| {
-            let index = first(action).map(|i| i as usize);
-            action.parameters.iter().enumerate().all(|(i, p)| Some(i) == index || h.disjoint(p.ty, actor))
-        });
-        (alone && actor != h.root()).then_some(actor)
-    }
 }
 
 /// The readable name of an action: its call's name and its parameters' types, without the actor's.

@@ -48,7 +48,7 @@ pub struct LearnOptions {
     /// Stop after the first phase: individual actions, the paper's baseline.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub individual: bool,
-    /// The type of the actor. `None`: the type that fills argument 0 of every action and no other parameter.
+    /// The type of the actor. `None`: the type that was seen as argument 0 of every action and in no other part.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub actor: Option<Actor>,
 }
