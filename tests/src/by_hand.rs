@@ -29,6 +29,30 @@ pub fn saws() -> (Arc<ActionModel>, Parser) {
     (Arc::new(learned.model), parser)
 }
 
+/// A model of a hand that puts things anywhere, also upon each other, and what reads its scenes. Its types have nothing in
+/// common, so that things and places are of any type.
+pub fn hands() -> (Arc<ActionModel>, Parser) {
+    let edges = ["hand", "cup", "lid", "table"].map(|ty| (ty, "object"));
+    let hierarchy = Hierarchy::from_edges(edges).expect("a tree");
+    let mut parser = Parser::new(hierarchy.clone(), ParseConfig::default());
+    let mut shown = Dataset { hierarchy: hierarchy.clone(), ..Dataset::default() };
+    for [thing, from, to] in [["cup_1", "table_1", "lid_1"], ["lid_1", "cup_1", "table_1"]] {
+        let objects = [("hand_1", "hand"), ("cup_1", "cup"), ("lid_1", "lid"), ("table_1", "table")];
+        let on = |place: &str| format!("on({thing},{place})");
+        let states = [["empty(hand_1)".to_owned(), on(from)], ["empty(hand_1)".to_owned(), on(to)]];
+        let held = bench(&mut parser, &objects, &[&format!("holds(hand_1,{thing})")]);
+        let [before, after] = states.map(|[empty, on]| bench(&mut parser, &objects, &[&empty, &on]));
+        let call = |name: &str, place: &str| {
+            let args = ["hand_1", thing, place].map(Symbol::new).to_vec();
+            TraceAction::from(GroundCall { name: Symbol::new(name), args })
+        };
+        let (states, actions) = (vec![before, held, after], vec![call("grasp", from), call("drop", to)]);
+        shown.traces.push(Trace { states, actions, ..Trace::default() });
+    }
+    let learned = learn(&hierarchy, &evidence_of(&shown).total(), &Default::default()).expect("a model");
+    (Arc::new(learned.model), parser)
+}
+
 /// The call of a saw that cuts something.
 pub fn cut(saw: &str, it: &str) -> GroundCall {
     GroundCall { name: Symbol::new("cut"), args: vec![Symbol::new(saw), Symbol::new(it)] }

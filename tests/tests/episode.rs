@@ -10,7 +10,7 @@ use typelift::model::{Budget, GoalError, GroundAtom, Plan, State, Symbol};
 use typelift::plan::Exclusion;
 use typelift::words::{AccountView, WireCommand, wire_command};
 use typelift::world::{Scene, Verdict};
-use typelift_tests::by_hand::{BENCH, ByHand, bench, id, saws, told};
+use typelift_tests::by_hand::{BENCH, ByHand, bench, hands, id, saws, told};
 
 fn failed_calls(account: &Account) -> Vec<String> {
     account.failures.iter().map(|failure| failure.call.to_string()).collect()
@@ -67,6 +67,28 @@ fn a_refusal_is_tried_again_then_blamed() {
     let suspects = it.episode.experience().suspects(it.episode.instance());
     let [(suspect, why)] = suspects.as_slice() else { panic!("{suspects:?}") };
     assert_eq!((suspect, why.reason.as_str(), why.count), (&blamed, "cut(saw_1, b) jammed", 1));
+}
+
+#[test]
+fn who_acts_is_not_blamed_where_a_place_may_be_anything() {
+    let (model, mut parser) = hands();
+    let general = |name: &str| model.actions.iter().any(|action| action.name == *name);
+    assert!(general("grasp-object-object") && general("drop-object-object"), "{:?}", model.actions);
+    let objects = [("hand_1", "hand"), ("cup_1", "cup"), ("cup_2", "cup"), ("lid_1", "lid"), ("table_1", "table")];
+    let state = bench(&mut parser, &objects, &["empty(hand_1)", "on(cup_1,cup_2)"]);
+    let goal = vec![GroundAtom::parse("on(cup_1,lid_1)").expect("an atom")];
+    let options = Options { retries: Some(0), ..Options::default() };
+    let mut episode = Episode::new(model, goal, options, Experience::new(), Budget::unlimited());
+    let reset = id(&episode.step(Input::Started, &mut ()).expect("nothing was planned"));
+    let input = Input::Reset { id: reset, state: state.clone(), instance: None };
+    let proposed = episode.step(input, &mut ()).expect("a plan");
+    assert_eq!(told(&proposed), "propose grasp(hand_1, cup_1, cup_2) drop(hand_1, cup_1, lid_1)");
+    let asked = episode.step(Input::Approve { id: id(&proposed) }, &mut ()).expect("approved");
+    let refused = Input::Refused { id: id(&asked), reason: "stuck".to_owned(), state };
+    episode.step(refused, &mut ()).expect("the planner does not err");
+    let suspects = episode.experience().suspects(episode.instance());
+    let blamed: Vec<String> = suspects.iter().map(|(suspect, _)| suspect.to_string()).collect();
+    assert_eq!(blamed, ["cup_2 from grasp"], "neither the hand nor what the goal speaks of");
 }
 
 #[test]

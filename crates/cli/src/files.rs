@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use typelift::model::{ActionModel, LearnedModel, ModelFileError, ParseConfig, Symbol, Task};
-use typelift::world::{DomainFile, FileError, Parser, TaskFile, is_pddl, read_text, read_types};
+use typelift::world::{
+    DomainFile, FileError, Parser, TaskFile, is_pddl, model_problem_from_text, read_text, read_types,
+};
 
 use crate::failure::{Failure, NOT_AS_WRITTEN};
 use crate::style::{HINT, WARNING};
@@ -71,10 +73,10 @@ impl ModelInput {
         }
     }
 
-    /// The name of it as a domain: the one that a PDDL domain has, or else that of the file.
+    /// The name of it as a domain: its own, that of the domain that its types were given by, or else that of the file.
     pub(crate) fn domain_name(&self, path: &Path) -> Symbol {
         match self {
-            Self::Learned(_) => domain_name(path),
+            Self::Learned(learned) => learned.domain.clone().unwrap_or_else(|| domain_name(path)),
             Self::Given(domain) => Symbol::from(domain.domain.name.as_str().to_ascii_lowercase()),
         }
     }
@@ -84,7 +86,7 @@ impl ModelInput {
         matches!(self, Self::Given(_))
     }
 
-    /// Reads a task file, or a problem of the domain; warns unless it is to be `quiet`.
+    /// Reads a task file, or a PDDL problem; warns unless it is to be `quiet`.
     pub(crate) fn read_task(&self, path: &Path, quiet: bool) -> Result<TaskInput, Failure> {
         self.task_from_text(path, &read_text(path)?, quiet)
     }
@@ -95,10 +97,9 @@ impl ModelInput {
             Self::Given(domain) if is_pddl(text) => {
                 Ok(TaskInput::Problem(Box::new(domain.problem_from_text(path, text)?)))
             }
-            Self::Learned(_) if is_pddl(text) => {
-                let error = FileError::new(path, "this is PDDL, and the model is a learned one");
-                let hint = "A PDDL problem needs its PDDL domain in the model's place; `typelift export` writes both.";
-                Err(error.with_hint(hint.to_owned()).into())
+            Self::Learned(learned) if is_pddl(text) => {
+                let problem = model_problem_from_text(&learned.model, learned.domain.as_ref(), path, text)?;
+                Ok(TaskInput::Problem(Box::new(problem)))
             }
             _ => {
                 let file = TaskFile::from_text(path, text)?;

@@ -38,7 +38,7 @@ pub(crate) struct Learn {
     /// Traces, trajectories, or folders of them
     #[arg(required_unless_present = "into", value_name = "TRACE")]
     traces: Vec<PathBuf>,
-    /// The type hierarchy: PDDL (:types …), a PDDL domain, or JSON {"child": "parent"}
+    /// The type hierarchy: PDDL (:types …), a PDDL domain, whose name and constants are taken too, or JSON {"child": "parent"}
     #[arg(long, value_name = "FILE", required_unless_present = "into")]
     types: Option<PathBuf>,
     /// Add to this model, as if all had been learned at once; its types and what it ignores hold
@@ -138,7 +138,7 @@ impl Learn {
     /// Reads the traces, and learns from them; also gives those that the model had already.
     fn learn(&self) -> Result<(Dataset, Vec<SourceId>, LearnedModel, learn::Report), Failure> {
         let ignore = self.ignore.iter().filter(|name| !name.is_empty()).map(|name| Symbol::new(name)).collect();
-        let types = match (&self.problems, &self.objects) {
+        let mut types = match (&self.problems, &self.objects) {
             (Some(folder), _) => ObjectTypes::from_problems(folder)?,
             (None, Some(file)) => ObjectTypes::from_file(file)?,
             (None, None) => ObjectTypes::default(),
@@ -148,9 +148,11 @@ impl Learn {
             (_, true) => Unlisted::Unknown,
             _ => Unlisted::AsListed,
         };
-        let context = TrajectoryContext { types, unlisted };
-        let LearnedModel { model, parse, options, mut evidence, .. } =
+        let LearnedModel { model, domain, parse, options, mut evidence, .. } =
             beginning(self.into.as_ref(), self.types.as_ref(), ignore)?;
+        types.add_constants(model.constants.iter().map(|(name, ty)| (name, model.hierarchy.name(*ty))));
+        let context = TrajectoryContext { types, unlisted };
+        let constants = model.constants;
         let dataset = match self.traces.as_slice() {
             [] => Dataset { hierarchy: model.hierarchy, parse, ..Dataset::default() },
             traces => read_dataset(traces, model.hierarchy, parse, &context)?,
@@ -169,12 +171,13 @@ impl Learn {
         };
         let options = learn_into::options(&options, Options { individual: self.individual, actor });
         let learned = learn_evidence(&dataset.hierarchy, &dataset.parse, evidence, &options);
-        let (model, report) = learned.map_err(|error| {
+        let (mut model, report) = learned.map_err(|error| {
             let LearnError::UnknownType(name) = &error;
             let types: Vec<Symbol> = dataset.hierarchy.types().map(|t| dataset.hierarchy.name(t).clone()).collect();
             let hint = format!("{} Or say `none`.", or_one_of(name.as_str(), &types));
             Failure::bad_input(format!("--actor {name}: {error}")).with_hint(hint)
         })?;
+        (model.domain, model.model.constants) = (domain, constants);
         Ok((dataset, known, model, report))
     }
 

@@ -1,11 +1,11 @@
 //! What `learn` begins with: nothing but types, or a model that demonstrations are added to or taken out of.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use typelift::learn::Options;
-use typelift::model::{Evidence, LearnedModel, MergeError, ParseConfig, SourceId, Symbol};
-use typelift::world::{FileError, read_hierarchy, source_of_file};
+use typelift::model::{Evidence, Hierarchy, LearnedModel, MergeError, ParseConfig, SourceId, Symbol, TypeId};
+use typelift::world::{FileError, read_types, source_of_file};
 
 use crate::failure::Failure;
 use crate::files::{ModelInput, read_model_input};
@@ -13,27 +13,53 @@ use crate::files::{ModelInput, read_model_input};
 /// Digits that tell a source.
 const FEWEST_DIGITS: usize = 4;
 
+/// What the file given as `--types` declares.
+struct Given<'p> {
+    path: &'p Path,
+    hierarchy: Hierarchy,
+    domain: Option<Symbol>,
+    constants: BTreeMap<Symbol, TypeId>,
+}
+
+impl<'p> Given<'p> {
+    fn read(path: &'p Path) -> Result<Self, FileError> {
+        let file = read_types(path)?;
+        let hierarchy = file.extend(&Hierarchy::default())?;
+        let constants = file.constants(&hierarchy)?;
+        Ok(Self { path, domain: file.domain().cloned(), hierarchy, constants })
+    }
+}
+
 /// A model without anything that it was learned from, or as it is in its file.
 pub(crate) fn beginning(
     into: Option<&PathBuf>,
     types: Option<&PathBuf>,
     ignore: BTreeSet<Symbol>,
 ) -> Result<LearnedModel, Failure> {
-    let types = types.map(|path| Ok::<_, FileError>((path, read_hierarchy(path)?))).transpose()?;
+    let types = types.map(|path| Given::read(path)).transpose()?;
     let Some(path) = into else {
         let mut none = LearnedModel { parse: ParseConfig { ignore }, ..LearnedModel::default() };
-        none.model.hierarchy = types.map(|(_, hierarchy)| hierarchy).unwrap_or_default();
+        if let Some(Given { hierarchy, domain, constants, .. }) = types {
+            (none.model.hierarchy, none.domain, none.model.constants) = (hierarchy, domain, constants);
+        }
         return Ok(none);
     };
-    let ModelInput::Learned(learned) = read_model_input(path, None)? else {
+    let ModelInput::Learned(mut learned) = read_model_input(path, None)? else {
         return Err(Failure::bad_input(format!("{}: this is a PDDL domain, not a learned model", path.display())));
     };
-    if let Some((given, hierarchy)) = types {
+    if let Some(Given { path: given, hierarchy, domain, constants }) = types {
         let agreed = learned.agrees(&hierarchy, &learned.parse);
         agreed.map_err(|error| {
             let hint = "Leave out --types: those of the model hold. Or learn from all traces anew.";
             Failure::bad_input(format!("--types {}: {error}", given.display())).with_hint(hint)
         })?;
+        let ids = |name: &Symbol| learned.model.hierarchy.id(name.as_str());
+        let own = constants.into_iter().filter_map(|(name, ty)| Some((name, ids(hierarchy.name(ty))?)));
+        let own: Vec<_> = own.collect();
+        for (name, ty) in own {
+            learned.model.constants.entry(name).or_insert(ty);
+        }
+        learned.domain = learned.domain.take().or(domain);
     }
     if !ignore.is_empty() {
         let agreed = learned.agrees(&learned.model.hierarchy, &ParseConfig { ignore });

@@ -22,7 +22,7 @@ use crate::planning_options::PlanningOptions;
 use crate::style::{BAD, HEAD, HINT, WARNING, painted};
 use crate::watchdog::watched;
 
-/// Where the plan for a PDDL problem is written unless the user says otherwise, as Fast Downward does.
+/// Where the plan of a PDDL domain is written unless the user says otherwise, as Fast Downward does.
 const DEFAULT_OUTPUT: &str = "sas_plan";
 
 /// The expansions that looking for another plan may take, if the user sets no limit.
@@ -38,6 +38,7 @@ const HINT_EXPANSIONS: u64 = 20_000;
   typelift plan kitchen.json K/tasks/T4.1.json --imagine -o apple.plan
   typelift plan kitchen.json K/tasks/T1.4.json --plans 3
   typelift plan domain.pddl problem.pddl --better --time-limit 30s
+  typelift plan model.json problem.pddl
   typelift plan kitchen.json K/tasks/T1.1.json --planner \
     'fast-downward --alias lama-first --plan-file {plan} {domain} {problem}'
 
@@ -45,7 +46,7 @@ Exit codes: 0 a plan was found, 11 there is none in this model, 12 gave up at a
 limit, 22 out of memory, 23 out of time, 31 bad input, 34 unsupported PDDL,
 36 wrong usage, 38 the other planner failed, 39 its plan is not valid.")]
 pub(crate) struct Plan {
-    /// The task: a goal and a state to start from; or a problem of the PDDL domain
+    /// The task: a goal and a state to start from; or a PDDL problem
     #[arg(index = 2)]
     task: PathBuf,
     /// Find N plans: each leaves out at least one action of every plan before it
@@ -55,7 +56,7 @@ pub(crate) struct Plan {
     /// Go on looking for cheaper plans until there is none, a limit is met, or Ctrl-C is pressed
     #[arg(long, conflicts_with_all = ["plans", "planner"])]
     better: bool,
-    /// Write the plan to this file; several to FILE.1, FILE.2, … [default: none, and sas_plan for a PDDL problem]
+    /// Write the plan to this file; several to FILE.1, FILE.2, … [default: none, and sas_plan for a PDDL domain]
     #[arg(long, short, value_name = "FILE")]
     output: Option<PathBuf>,
     #[command(flatten)]

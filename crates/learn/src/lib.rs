@@ -124,7 +124,8 @@ pub fn learn_evidence(
 ) -> Result<(LearnedModel, Report), LearnError> {
     let Learned { model, report } = learn(hierarchy, &evidence.total(), options)?;
     let refused = report.refused;
-    Ok((LearnedModel { model, parse: parse.clone(), options: options.clone(), evidence, refused }, report))
+    let (parse, options) = (parse.clone(), options.clone());
+    Ok((LearnedModel { model, domain: None, parse, options, evidence, refused }, report))
 }
 
 /// Algorithm 1 after clustering: a pure function of what was observed.

@@ -19,7 +19,8 @@ pub struct ActionModel {
     pub predicates: ArgumentTypes,
     /// The type of the actor, if there is one: it is not blamed when a step fails.
     pub actor: Option<TypeId>,
-    /// The objects that actions and axioms mention by name, with their types. Every task has them.
+    /// The objects that every task has, with their types: those that actions and axioms mention by name, and the constants
+    /// of the domain that declares the types.
     pub constants: BTreeMap<Symbol, TypeId>,
     /// The actions, with unique names, sorted by name.
     pub actions: Vec<ActionSchema>,

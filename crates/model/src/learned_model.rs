@@ -13,6 +13,8 @@ use crate::{ActionModel, Evidence, Hierarchy, ParseConfig, Symbol};
 pub struct LearnedModel {
     /// What plans are made with.
     pub model: ActionModel,
+    /// The name of the PDDL domain that declares its types, if it is known.
+    pub domain: Option<Symbol>,
     /// How snapshots are read.
     pub parse: ParseConfig,
     /// What was asked of learning.

@@ -78,6 +78,7 @@ impl ModelFile1 {
             ..EvidenceFile::default()
         };
         let file = ModelFile {
+            domain: None,
             format: MODEL_FORMAT.to_owned(),
             types: self.types,
             predicates: BTreeMap::new(),

@@ -18,6 +18,9 @@ pub(crate) struct ModelFile {
     /// The format and its version.
     #[cfg_attr(feature = "schema", schemars(extend("const" = MODEL_FORMAT)))]
     pub(crate) format: String,
+    /// The name of the PDDL domain that declares the types.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) domain: Option<Symbol>,
     /// `[child, parent]` pairs, parents first.
     pub(crate) types: Vec<(Symbol, Symbol)>,
     /// The types of each predicate's arguments.
@@ -29,7 +32,7 @@ pub(crate) struct ModelFile {
     pub(crate) options: LearnOptions,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) actor: Option<Symbol>,
-    /// Objects that actions and axioms mention by name, with their types.
+    /// Objects that every task has, with their types.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub(crate) constants: BTreeMap<Symbol, Symbol>,
     pub(crate) actions: Vec<ActionFile>,
@@ -188,6 +191,7 @@ impl LearnedModel {
         let clusters: Vec<&ClusterKey> = total.clusters.keys().collect();
         let file = ModelFile {
             format: MODEL_FORMAT.to_owned(),
+            domain: self.domain.clone(),
             types: model.hierarchy.edges().map(|(c, p)| (c.clone(), p.clone())).collect(),
             predicates: model.predicates.iter().map(|(name, types)| (name.clone(), names_of(types))).collect(),
             parse: self.parse.clone(),

@@ -75,6 +75,9 @@ impl LearnedModel {
         }
         actions.sort_by(|a, b| a.name.cmp(&b.name));
         let mut constants = BTreeMap::new();
+        if let Some(name) = &file.domain {
+            check_name(name.as_str()).map_err(|error| inconsistent("\"domain\"".to_owned(), &error.to_string()))?;
+        }
         for (name, ty) in file.constants {
             constants.insert(name, type_id(&hierarchy, &ty, || "\"constants\"".to_owned())?);
         }
@@ -88,7 +91,14 @@ impl LearnedModel {
         let wordings = BTreeMap::new();
         let model = ActionModel { hierarchy, predicates, actor, constants, actions, axioms, wordings };
         drop(total);
-        Ok(Self { model, parse: file.parse, options: file.options, evidence, refused: file.refused_merges })
+        Ok(Self {
+            model,
+            domain: file.domain,
+            parse: file.parse,
+            options: file.options,
+            evidence,
+            refused: file.refused_merges,
+        })
     }
 }
 

@@ -10,7 +10,7 @@ use crate::objects::one_type;
 use crate::requirements::read_requirements;
 use crate::scope::{Scope, read_variables};
 use crate::types::types_of_block;
-use crate::vocabulary::Vocabulary;
+use crate::vocabulary::{DeclaredIn, Vocabulary};
 use crate::{
     Action, Definition, DefinitionKind, Derived, Document, Domain, Formula, PddlEffect, PddlError, Sexpr, Signature,
     Span, Typed, hierarchy_from_types, read_typed_list,
@@ -35,7 +35,7 @@ pub fn read_domain(text: &str) -> Result<Domain, PddlError> {
             types.push(pair);
         }
     }
-    let mut vocabulary = Vocabulary::with_types(hierarchy);
+    let mut vocabulary = Vocabulary::with_types(hierarchy, DeclaredIn::Domain);
     let mut domain = Domain {
         name: Symbol::new(&lower(definition.name)),
         requirements: read_requirements(definition.block(":requirements")?)?,

@@ -18,10 +18,12 @@ pub struct ObjectDeclaration {
 }
 
 /// The objects that a file declares.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Declarations {
     /// What the file defines; `None` for a block alone.
     pub kind: Option<DefinitionKind>,
+    /// The name of what it defines, in lower case.
+    pub name: Option<Symbol>,
     /// The objects, in the order of the text; names are unique.
     pub objects: Vec<ObjectDeclaration>,
 }
@@ -34,8 +36,8 @@ pub struct Declarations {
 pub fn read_objects(text: &str) -> Result<Declarations, PddlError> {
     let document = Document::read(text)?;
     let root = document.only_root()?;
-    let (kind, block) = if root.has_head(":objects") || root.has_head(":constants") {
-        (None, Some(root))
+    let (kind, name, block) = if root.has_head(":objects") || root.has_head(":constants") {
+        (None, None, Some(root))
     } else {
         let Some(definition) = Definition::read(root)? else {
             return Err(root.error("neither a problem nor an `(:objects …)` block"));
@@ -44,9 +46,9 @@ pub fn read_objects(text: &str) -> Result<Declarations, PddlError> {
             DefinitionKind::Domain => ":constants",
             DefinitionKind::Problem => ":objects",
         };
-        (Some(definition.kind), definition.block(key)?)
+        (Some(definition.kind), Some(Symbol::from(definition.name.to_ascii_lowercase())), definition.block(key)?)
     };
-    let Some(block) = block else { return Ok(Declarations { kind, objects: Vec::new() }) };
+    let Some(block) = block else { return Ok(Declarations { kind, name, objects: Vec::new() }) };
     let mut items = block.children();
     items.next();
     let mut objects = Vec::new();
@@ -63,7 +65,7 @@ pub fn read_objects(text: &str) -> Result<Declarations, PddlError> {
         }
         objects.push(ObjectDeclaration { name, ty: Symbol::from(ty.to_ascii_lowercase()), span: declaration.span });
     }
-    Ok(Declarations { kind, objects })
+    Ok(Declarations { kind, name, objects })
 }
 
 /// The type of an object as it is written.

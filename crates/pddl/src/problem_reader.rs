@@ -9,7 +9,7 @@ use crate::formula_reader::{is_empty, parts};
 use crate::names::lower;
 use crate::requirements::read_requirements;
 use crate::scope::Scope;
-use crate::vocabulary::Vocabulary;
+use crate::vocabulary::{DeclaredIn, Vocabulary};
 use crate::{Definition, DefinitionKind, Document, Domain, Formula, PddlError, Problem, Sexpr, Span};
 
 const BLOCKS: [&str; 7] = [":domain", ":requirements", ":objects", ":init", ":goal", ":metric", ":length"];
@@ -19,15 +19,21 @@ const BLOCKS: [&str; 7] = [":domain", ":requirements", ":objects", ":init", ":go
 /// # Errors
 /// [`PddlError`] at what is wrong, or is right but not supported.
 pub fn read_problem(text: &str, domain: &Domain) -> Result<Problem, PddlError> {
+    problem_within(text, domain, DeclaredIn::Domain)
+}
+
+/// Reads a problem of which the domain, or what a model declares, says what it may mention. A domain without a name takes
+/// problems of any.
+pub(crate) fn problem_within(text: &str, domain: &Domain, declared_in: DeclaredIn) -> Result<Problem, PddlError> {
     let document = Document::read(text)?;
     let definition = Definition::only(&document, DefinitionKind::Problem)?;
     refuse_other_blocks(&definition, &BLOCKS)?;
     let name = definition.domain_name()?;
-    if !name.is(domain.name.as_str()) {
+    if !name.is(domain.name.as_str()) && !domain.name.as_str().is_empty() {
         let message = format!("this problem belongs to the domain `{}`, not to `{}`", lower(name.text()), domain.name);
         return Err(name.error(message).with_hint("Read it with its own domain, or correct the name."));
     }
-    let mut vocabulary = Vocabulary::of_domain(domain, text)?;
+    let mut vocabulary = Vocabulary::of_domain(domain, declared_in, text)?;
     let requirements = read_requirements(definition.block(":requirements")?)?;
     let objects = read_objects_block(&mut vocabulary, definition.block(":objects")?, "object")?;
     let Some(init) = definition.block(":init")? else {
@@ -41,7 +47,7 @@ pub fn read_problem(text: &str, domain: &Domain) -> Result<Problem, PddlError> {
     let Init { atoms, values, .. } = reader.init;
     Ok(Problem {
         name: Symbol::new(&lower(definition.name)),
-        domain: domain.name.clone(),
+        domain: Symbol::new(&lower(name.text())),
         requirements,
         objects,
         init: atoms,

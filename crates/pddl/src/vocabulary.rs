@@ -24,11 +24,30 @@ pub(crate) struct DeclaredObject {
     pub(crate) span: Option<Span>,
 }
 
+/// What says which types, predicates and functions there are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum DeclaredIn {
+    Domain,
+    /// A model that was not made from a domain.
+    Model,
+}
+
+impl DeclaredIn {
+    /// What to do about a thing of this kind that is not declared.
+    fn advice(self, kind: &str) -> String {
+        match self {
+            Self::Domain => format!("Declare it in `(:{kind}s …)` of the domain."),
+            Self::Model => format!("The model has no such {kind}: it was learned without it."),
+        }
+    }
+}
+
 /// Predicates, or functions.
 #[derive(Debug)]
 pub(crate) struct Signatures {
     /// What they are called: `predicate`.
     pub(crate) kind: &'static str,
+    declared_in: DeclaredIn,
     by_name: HashMap<Symbol, Declared>,
 }
 
@@ -36,6 +55,7 @@ pub(crate) struct Signatures {
 #[derive(Debug)]
 pub(crate) struct Vocabulary {
     pub(crate) hierarchy: Hierarchy,
+    declared_in: DeclaredIn,
     /// The spelling of each type.
     types: HashMap<String, Symbol>,
     pub(crate) predicates: Signatures,
@@ -46,8 +66,8 @@ pub(crate) struct Vocabulary {
 }
 
 impl Signatures {
-    fn new(kind: &'static str) -> Self {
-        Self { kind, by_name: HashMap::default() }
+    fn new(kind: &'static str, declared_in: DeclaredIn) -> Self {
+        Self { kind, declared_in, by_name: HashMap::default() }
     }
 
     fn insert(&mut self, signature: &Signature, hierarchy: &Hierarchy, span: Option<Span>) {
@@ -66,10 +86,7 @@ impl Signatures {
             let mut known: Vec<&Symbol> = self.by_name.keys().collect();
             known.sort();
             let error = name.error(format!("{} `{}` is not declared", self.kind, lower(text)));
-            error.with_hint(
-                did_you_mean(text, known)
-                    .unwrap_or_else(|| format!("Declare it in `(:{}s …)` of the domain.", self.kind)),
-            )
+            error.with_hint(did_you_mean(text, known).unwrap_or_else(|| self.declared_in.advice(self.kind)))
         })
     }
 }
@@ -81,7 +98,7 @@ fn type_ids(hierarchy: &Hierarchy, typed: &Typed) -> Vec<TypeId> {
 
 impl Vocabulary {
     /// With these types alone.
-    pub(crate) fn with_types(hierarchy: Hierarchy) -> Self {
+    pub(crate) fn with_types(hierarchy: Hierarchy, declared_in: DeclaredIn) -> Self {
         let spelled = |id| {
             let name: &Symbol = hierarchy.name(id);
             (name.as_str().to_ascii_lowercase(), name.clone())
@@ -89,23 +106,24 @@ impl Vocabulary {
         Self {
             types: hierarchy.types().map(spelled).collect(),
             hierarchy,
-            predicates: Signatures::new("predicate"),
-            functions: Signatures::new("function"),
+            declared_in,
+            predicates: Signatures::new("predicate", declared_in),
+            functions: Signatures::new("function", declared_in),
             objects: HashMap::default(),
             derived: HashSet::default(),
         }
     }
 
-    /// That of a domain that was read before.
+    /// That of a domain that was read before, or that states what a model declares.
     ///
     /// # Errors
     /// [`PddlError`] if its types form a cycle.
-    pub(crate) fn of_domain(domain: &Domain, text: &str) -> Result<Self, PddlError> {
+    pub(crate) fn of_domain(domain: &Domain, declared_in: DeclaredIn, text: &str) -> Result<Self, PddlError> {
         let edges = domain.types.iter().map(|(child, parent)| (child.as_str(), parent.as_str()));
         let hierarchy = Hierarchy::from_edges(edges).map_err(|error| {
             PddlError::new(text, Span::default(), format!("the types of the domain `{}`: {error}", domain.name))
         })?;
-        let mut vocabulary = Self::with_types(hierarchy);
+        let mut vocabulary = Self::with_types(hierarchy, declared_in);
         for signature in &domain.predicates {
             vocabulary.predicates.insert(signature, &vocabulary.hierarchy, None);
         }
@@ -186,8 +204,7 @@ impl Vocabulary {
         };
         self.types.get(&*lower(name)).cloned().ok_or_else(|| {
             let known = self.hierarchy.types().map(|id| self.hierarchy.name(id));
-            let hint =
-                did_you_mean(name, known).unwrap_or_else(|| "Declare it in `(:types …)` of the domain.".to_owned());
+            let hint = did_you_mean(name, known).unwrap_or_else(|| self.declared_in.advice("type"));
             ty.error(format!("type `{name}` is not declared")).with_hint(hint)
         })
     }

@@ -1,21 +1,24 @@
 //! Hierarchy files: a PDDL `(:types …)` block, a whole domain, or JSON `{"child": "parent"}`, where several parents are a
 //! list.
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
 use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};
-use typelift_model::{Hierarchy, Symbol, check_name};
-use typelift_pddl::{PddlError, Span, TypeEdge, hierarchy_from_types};
+use typelift_model::{Hierarchy, Symbol, TypeId, check_name, did_you_mean};
+use typelift_pddl::{Declarations, Document, ObjectDeclaration, PddlError, Span, TypeEdge, hierarchy_from_types};
 
 use crate::{FileError, json, read_text};
 
-/// The types that a file declares, with their places in it.
+/// The types that a file declares, with their places in it; of a domain its name and constants, too.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TypesFile {
     path: PathBuf,
     text: String,
     edges: Vec<TypeEdge>,
+    domain: Option<Symbol>,
+    constants: Vec<ObjectDeclaration>,
 }
 
 impl TypesFile {
@@ -25,10 +28,15 @@ impl TypesFile {
     /// As for [`read_types`].
     pub fn from_text(name: &Path, text: String) -> Result<Self, FileError> {
         let located = |error: PddlError| FileError::from_pddl(name, &text, error);
+        let mut domain = Declarations::default();
         let edges = match text.trim_start().chars().next() {
             None => return Err(FileError::new(name, "the file is empty")),
             Some('{') => json_types(name, &text)?,
-            Some('(' | ';') => typelift_pddl::read_types(&text).map_err(located)?,
+            Some('(' | ';') => {
+                let edges = typelift_pddl::read_types(&text).map_err(located)?;
+                domain = domain_declarations(&text).map_err(located)?;
+                edges
+            }
             Some(_) => {
                 let what = "this is neither PDDL types nor a JSON object of types";
                 return Err(FileError::new(name, what).with_hint(EXAMPLE.to_owned()));
@@ -40,7 +48,33 @@ impl TypesFile {
                     .map_err(|error| located(PddlError::new(&text, edge.span, error.to_string())))?;
             }
         }
-        Ok(Self { path: name.to_owned(), text, edges })
+        Ok(Self { path: name.to_owned(), text, edges, domain: domain.name, constants: domain.objects })
+    }
+
+    /// The name of the domain that the file is, if it is one, in lower case.
+    pub fn domain(&self) -> Option<&Symbol> {
+        self.domain.as_ref()
+    }
+
+    /// The constants of the domain that the file is, with their types in a hierarchy.
+    ///
+    /// # Errors
+    /// [`FileError`] at a constant of a type that the hierarchy does not have.
+    pub fn constants(&self, hierarchy: &Hierarchy) -> Result<BTreeMap<Symbol, TypeId>, FileError> {
+        let typed = |constant: &ObjectDeclaration| {
+            let mut types = hierarchy.types();
+            let found = types.find(|&ty| hierarchy.name(ty).as_str().eq_ignore_ascii_case(constant.ty.as_str()));
+            let ty = found.ok_or_else(|| {
+                let message = format!("constant `{}`: unknown type `{}`", constant.name, constant.ty);
+                let names = hierarchy.types().map(|ty| hierarchy.name(ty));
+                let hint = did_you_mean(constant.ty.as_str(), names)
+                    .unwrap_or_else(|| "Declare it in `(:types …)`.".to_owned());
+                let error = PddlError::new(&self.text, constant.span, message).with_hint(hint);
+                FileError::from_pddl(&self.path, &self.text, error)
+            })?;
+            Ok((constant.name.clone(), ty))
+        };
+        self.constants.iter().map(typed).collect()
     }
 
     /// Each type with each of its parents, in the order of the file.
@@ -80,6 +114,14 @@ pub fn hierarchy_from_text(name: &Path, text: String) -> Result<Hierarchy, FileE
 /// [`FileError`] if it is not a hierarchy file.
 pub fn read_types(path: &Path) -> Result<TypesFile, FileError> {
     TypesFile::from_text(path, read_text(path)?)
+}
+
+/// The name and the constants of a domain; nothing of `(:types …)` alone.
+fn domain_declarations(text: &str) -> Result<Declarations, PddlError> {
+    match Document::read(text)?.only_root()?.has_head(":types") {
+        true => Ok(Declarations::default()),
+        false => typelift_pddl::read_objects(text),
+    }
 }
 
 const EXAMPLE: &str = "Write `(:types rod leek - piece)` or `{\"rod\": \"piece\", \"leek\": \"piece\"}`.";

@@ -38,7 +38,7 @@ pub use inspection::{Change, Finding, InspectOptions, Inspection, Problem, Tried
 pub use line_reader::LINE_LIMIT;
 pub use object_types::ObjectTypes;
 pub use parse::{ParseError, ParseErrorKind, Parser};
-pub use pddl_file::{DomainFile, StatedProblem, is_pddl};
+pub use pddl_file::{DomainFile, StatedProblem, is_pddl, model_problem_from_text};
 pub use protocol::{Answer, PROTOCOL, Request, RequestBody};
 pub use recorder::Recorder;
 pub use recording::Recording;

@@ -60,6 +60,14 @@ impl ObjectTypes {
         Ok(())
     }
 
+    /// Adds constants, each with its type's name, unless their types are listed already.
+    pub fn add_constants<'a>(&mut self, constants: impl IntoIterator<Item = (&'a Symbol, &'a Symbol)>) {
+        let lower = |name: &Symbol| Symbol::from(name.as_str().to_ascii_lowercase());
+        for (name, ty) in constants {
+            self.shared.entry(lower(name)).or_insert_with(|| lower(ty));
+        }
+    }
+
     /// Reads every `.pddl` file of a folder: the objects of problems, and the constants of domains. A trajectory goes
     /// with the problem whose file has the same name but for the ending, a closing `_traj`, `_trajectory`, `_prob` or
     /// `_problem` apart, or with the only problem.

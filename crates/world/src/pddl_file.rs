@@ -2,9 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use typelift_model::{ActionModel, Task};
+use typelift_model::{ActionModel, Symbol, Task};
 use typelift_pddl::{
-    CompileError, Domain, Meaning, Problem, compile_domain, compile_problem, read_domain, read_problem,
+    CompileError, Domain, Meaning, Problem, compile_domain, compile_problem, read_domain, read_model_problem,
+    read_problem,
 };
 
 use crate::{FileError, read_text};
@@ -92,6 +93,23 @@ impl StatedProblem {
             located(path, text, &error)
         })
     }
+}
+
+/// Reads the text of a problem for a model that was not made from a PDDL domain: the model for it, and its task. The
+/// problem belongs to the domain of this name, or, without one, to any; errors call it `name`.
+///
+/// # Errors
+/// [`FileError`] if it is not one, mentions what the model does not have, or has no task.
+pub fn model_problem_from_text(
+    model: &ActionModel,
+    domain: Option<&Symbol>,
+    name: &Path,
+    text: &str,
+) -> Result<(ActionModel, Task), FileError> {
+    let problem = read_model_problem(text, model, domain).map_err(|error| FileError::from_pddl(name, text, error))?;
+    let mut model = model.clone();
+    let task = compile_problem(&problem, &mut model).map_err(|error| located(name, text, &error))?;
+    Ok((model, task))
 }
 
 fn located(path: &Path, text: &str, error: &CompileError) -> FileError {

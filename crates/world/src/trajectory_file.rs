@@ -124,8 +124,8 @@ fn typed_objects(
             }
             let Some(ty) = given.get(name) else {
                 let error = PddlError::new(text, span, format!("the type of object `{name}` is not given"));
-                let options = "Give it by a problem file, or a domain file if it is a constant \
-                               (--problems DIR), or by a list (--objects FILE).";
+                let options = "Give it by a problem file (--problems DIR), by a list (--objects FILE), or, if it is a \
+                               constant, by its domain (--types FILE).";
                 return Err(error.with_hint(match did_you_mean(name.as_str(), given.keys()) {
                     Some(question) => format!("{question} {options}"),
                     None => options.to_owned(),
@@ -204,8 +204,8 @@ mod tests {
         assert_eq!(
             untyped.hint.as_deref(),
             Some(
-                "Did you mean `block1`? Give it by a problem file, or a domain file if it is a constant \
-                 (--problems DIR), or by a list (--objects FILE)."
+                "Did you mean `block1`? Give it by a problem file (--problems DIR), by a list (--objects FILE), or, if \
+                 it is a constant, by its domain (--types FILE)."
             )
         );
         assert_eq!(untyped.excerpt.as_deref(), Some("  |\n2 |  (p blok1)))\n  |  ^^^^^^^^^\n"));

@@ -5,6 +5,7 @@ mod bad_models;
 mod bad_tasks;
 mod bad_traces;
 mod bad_types;
+mod benchmark_files;
 mod checking_environments;
 mod common;
 mod confirming;

@@ -36,6 +36,7 @@ pub(crate) fn measure(transitions: u64, seconds: f64) -> Measurement {
     let spent = observing + begun.seconds();
     let learned = LearnedModel {
         model,
+        domain: None,
         parse: ParseConfig::default(),
         options: Options::default(),
         // One long trace.

@@ -26,6 +26,7 @@ use typelift_model::{ActionModel, NameCollision, Symbol, Task};
 use crate::required::{required_by_both, required_by_domain};
 use crate::{Domain, Problem};
 
+pub(crate) use names::functions;
 pub use names::{ExportNames, UnknownName};
 
 /// How many facts may be added to an initial state at [`Level::Strips`], and how many values of costs that are sums.

@@ -95,7 +95,7 @@ pub(super) fn predicates<'a>(model: &'a ActionModel, task: Option<&'a Task>) -> 
 }
 
 /// The functions that costs mention, with their number of arguments.
-pub(super) fn functions(model: &ActionModel) -> BTreeMap<&Symbol, usize> {
+pub(crate) fn functions(model: &ActionModel) -> BTreeMap<&Symbol, usize> {
     let functions = model.actions.iter().flat_map(|action| &action.cost.functions);
     functions.map(|function| (&function.predicate, function.args.len())).collect()
 }

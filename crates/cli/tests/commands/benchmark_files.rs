@@ -1,0 +1,118 @@
+//! What the field's benchmarks consist of, a domain, trajectories and problems, with models that are learned from them.
+
+use crate::common::{Folder, Transcript};
+
+const DOMAIN: &str = "(define (domain Night-Shift) (:requirements :typing)
+ (:types Tram Bus - Line stop - object) (:constants Depot - Stop)
+ (:predicates (at ?l - line ?s - stop) (dirty ?l - line) (clean ?l - line)))
+";
+
+/// Two nights: a tram is washed and leaves the depot, a bus comes to the depot and is washed.
+const NIGHTS: [&str; 2] = [
+    "(:trajectory (:state (at t1 depot) (dirty t1)) (:action (wash t1 depot))
+ (:state (at t1 depot) (clean t1)) (:action (drive T1 Depot market)) (:state (at t1 market) (clean t1)))",
+    "(:trajectory (:state (at b1 market) (dirty b1)) (:action (drive b1 market depot))
+ (:state (at b1 depot) (dirty b1)) (:action (wash b1 depot)) (:state (at b1 depot) (clean b1)))",
+];
+
+const TASK: &str = "(define (problem Late) (:domain night-shift)
+ (:objects Bus-7 - bus Tram_2 - TRAM Market Old-Square - stop)
+ (:init (at bus-7 market) (DIRTY bus-7) (at tram_2 old-square) (dirty Tram_2))
+ (:goal (and (at BUS-7 depot) (forall (?l - Line) (clean ?l)))))
+";
+
+/// A model of the two nights, in `shift.json`, and a task for it.
+fn shift() -> Folder {
+    let folder = Folder::new();
+    folder.write("domain.pddl", DOMAIN);
+    folder.write("late.pddl", TASK);
+    std::fs::create_dir(folder.path("P")).expect("a folder");
+    folder.write("P/1.pddl", "(define (problem one) (:domain night-shift) (:objects T1 - tram market - stop))");
+    folder.write("P/2.pddl", "(define (problem two) (:domain night-shift) (:objects b1 - bus market - stop))");
+    for (number, night) in (1..).zip(NIGHTS) {
+        folder.write(&format!("{number}.trajectory"), night);
+    }
+    let learned = "learn 1.trajectory 2.trajectory --types domain.pddl --problems P --actor none -o shift.json";
+    folder.run(learned).succeeds();
+    folder
+}
+
+#[test]
+fn a_problem_is_a_task_for_a_learned_model() {
+    let folder = shift();
+    let mut transcript = Transcript::default();
+    let planned = folder.run("plan shift.json late.pddl -o late.plan");
+    let steps: Vec<&str> = planned.out.lines().skip(1).collect();
+    assert_eq!(planned.code, 0, "{planned}");
+    assert_eq!(
+        steps.len(),
+        3,
+        "both are washed, and the bus drives to a place that only the domain declares: {planned}"
+    );
+    transcript.add("validate", &folder.run("validate shift.json late.pddl late.plan"));
+    transcript.add("export", &folder.run("export shift.json late.pddl -o E"));
+    // What is exported is a domain of this name, with these constants, for every planner and every problem.
+    transcript.add("validate the benchmark's problem", &folder.run("validate E/domain.pddl late.pddl late.plan"));
+    let as_domain = folder.run("plan E/domain.pddl late.pddl");
+    assert!(as_domain.out.starts_with("3 steps"), "{as_domain}");
+    insta::assert_snapshot!(transcript.0);
+}
+
+#[test]
+fn constants_and_the_domains_name_stay_with_the_model() {
+    let folder = shift();
+    let model = folder.json("shift.json");
+    assert_eq!((&model["domain"], &model["constants"]["depot"]), (&"night-shift".into(), &"stop".into()));
+    folder.run("learn 1.trajectory --types domain.pddl --problems P --actor none -o part.json -q").succeeds();
+    folder.run("learn --into part.json 2.trajectory --problems P -q").succeeds();
+    assert!(folder.read("part.json") == folder.read("shift.json"), "as learned at once");
+    // Types alone declare neither; a list may.
+    folder.write("types.pddl", "(:types Tram Bus - Line stop - object)");
+    let untyped = folder.refuses(31, "learn 1.trajectory --types types.pddl --problems P -o no.json");
+    assert!(untyped.err.contains("the type of object `depot` is not given"), "{untyped}");
+    folder.write("objects.json", r#"{"t1": "tram", "b1": "bus", "market": "stop", "depot": "stop"}"#);
+    let listed =
+        "learn 1.trajectory 2.trajectory --types types.pddl --objects objects.json --actor none -o listed.json";
+    folder.run(listed).succeeds();
+    assert_eq!(folder.json("listed.json")["domain"], serde_json::Value::Null);
+    let unknown = TASK.replace("(:domain night-shift)", "(:domain day-shift)").replace("Market ", "Market Depot ");
+    folder.write("late.pddl", &unknown);
+    folder.run("plan listed.json late.pddl").succeeds();
+    folder.write("domain.pddl", DOMAIN.replace("Depot - Stop", "Depot - shed"));
+    let shed = folder.refuses(31, "learn 1.trajectory --types domain.pddl --problems P -o no.json");
+    assert!(shed.err.contains("constant `depot`: unknown type `shed`"), "{shed}");
+}
+
+#[test]
+fn what_the_model_does_not_know_is_said_with_its_place() {
+    let folder = shift();
+    let mut transcript = Transcript::default();
+    for (title, from, to) in [
+        ("predicate", "(:init ", "(:init (broken bus-7) "),
+        ("nearly a predicate", "(DIRTY bus-7)", "(dirrty bus-7)"),
+        ("type", "Tram_2 - TRAM", "Tram_2 - ferry"),
+        ("object", "(at BUS-7 depot)", "(at BUS-7 harbour)"),
+        ("arguments", "(at BUS-7 depot)", "(at BUS-7)"),
+        ("domain", "night-shift", "day-shift"),
+        ("constant", "Market Old-Square - stop", "Market Old-Square - stop Depot - bus"),
+        ("function", "(:init ", "(:init (= (distance depot market) 5) "),
+    ] {
+        assert!(TASK.contains(from), "{from}");
+        folder.write("late.pddl", TASK.replace(from, to));
+        transcript.add(title, &folder.refuses(31, "plan shift.json late.pddl"));
+    }
+    insta::assert_snapshot!(transcript.0);
+}
+
+#[test]
+fn names_that_pddl_spells_otherwise_are_found() {
+    let folder = Folder::kitchen();
+    folder.run("export kitchen.json K/tasks/T1.1.json -o E -q").succeeds();
+    let steps = |task: &str| {
+        let planned = folder.run(&format!("plan kitchen.json {task}"));
+        planned.out.lines().skip(1).map(str::to_ascii_lowercase).collect::<Vec<_>>()
+    };
+    let own = steps("K/tasks/T1.1.json");
+    assert_eq!(own.len(), 5);
+    assert_eq!(steps("E/problem.pddl"), own, "but for the spelling of objects, which PDDL has in lower case");
+}
