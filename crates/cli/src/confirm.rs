@@ -7,9 +7,10 @@ use std::time::Duration;
 
 use clap::ValueEnum;
 use typelift::agent::{Confirmation, Objection};
-use typelift::model::{ActionModel, GroundAtom, Plan, Symbol};
-use typelift::words::numbered_steps;
+use typelift::model::{ActionModel, GroundAtom, Plan, Symbol, did_you_mean};
+use typelift::words::{count, numbered_steps};
 
+use crate::failure::printable_lines;
 use crate::limits::Interrupt;
 use crate::style::painted;
 
@@ -17,6 +18,17 @@ use crate::style::painted;
 const ANSWER_INTERVAL: Duration = Duration::from_millis(50);
 
 const QUESTION: &str = "execute? [y]es, [n]o [STEP] [broken|kind|while ATOM|now], [a]nother plan, [s]top: ";
+
+/// What can be answered.
+const HELP: &str = "  y                  execute it
+  n                  no, because of the imagined step if there is one, else the first
+  n 3                no, because of step 3
+  n 3 broken cup_1   no: cup_1 is broken, or, if nothing is named, what the step is about
+  n 3 kind cup_1     no: such things do not go there; if nothing is named, those imagined
+  n 3 while on(a,b)  no: not while this holds
+  n 3 now            no: not in this task
+  a                  another plan; nothing speaks against this one
+  s                  stop";
 
 /// Which plans are to be confirmed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -49,50 +61,79 @@ pub(crate) fn confirm(which: Option<Which>, plan: &Plan, model: &ActionModel, in
         if !std::io::stdin().is_terminal() {
             anstream::eprintln!("{}", answer.trim());
         }
-        if let Some(confirmation) = read(&answer, plan, model, imagined.unwrap_or(0) + 1) {
-            return confirmation;
+        match read(&answer, plan, model, imagined.unwrap_or(0) + 1) {
+            Ok(confirmation) => return confirmation,
+            Err(why) => anstream::eprintln!("{}", printable_lines(&why)),
         }
     }
 }
 
-/// What an answer means; without a number it is about the step `usual`. None if it means nothing.
-fn read(answer: &str, plan: &Plan, model: &ActionModel, usual: usize) -> Option<Confirmation> {
+/// What an answer means, without a number it is about the step `usual`; or what is said if it means nothing.
+fn read(answer: &str, plan: &Plan, model: &ActionModel, usual: usize) -> Result<Confirmation, String> {
     let words: Vec<&str> = answer.split_whitespace().collect();
-    let (first, mut rest) = words.split_first()?;
-    match (*first, rest) {
-        ("y" | "yes", []) => return Some(Confirmation::Approve),
-        ("a" | "another", []) => return Some(Confirmation::AnotherPlan),
-        ("s" | "stop", []) => return Some(Confirmation::Stop),
-        ("n" | "no", _) => {}
-        _ => return None,
-    }
-    let mut step = usual;
-    if let Some((number, others)) = rest.split_first()
-        && let Ok(number) = number.parse()
-    {
-        (step, rest) = (number, others);
-    }
-    let objects_of_step = &plan.steps.get(step.checked_sub(1)?)?.objects;
-    let objects = |names: &[&str]| -> Option<Vec<Symbol>> {
-        let named = |name: &&str| objects_of_step.iter().find(|object| **object == **name).cloned();
+    let (step, reason) = match *words {
+        ["y" | "yes"] => return Ok(Confirmation::Approve),
+        ["a" | "another"] => return Ok(Confirmation::AnotherPlan),
+        ["s" | "stop"] => return Ok(Confirmation::Stop),
+        ["?" | "h" | "help"] => return Err(HELP.to_owned()),
+        [] => return Err("answer y, n, a or s; `?` says what can be answered".to_owned()),
+        ["n" | "no", ref rest @ ..] => match rest.split_first() {
+            Some((number, reason)) if number.starts_with(|c: char| c.is_ascii_digit()) => (number.parse().ok(), reason),
+            _ => (Some(usual), rest),
+        },
+        _ => return Err(not_understood(answer)),
+    };
+    let planned = step.and_then(|step: usize| Some((step, plan.steps.get(step.checked_sub(1)?)?)));
+    let Some((step, planned)) = planned else {
+        let (number, last) = (words.get(1).unwrap_or(&"1"), plan.len());
+        return Err(format!("there is no step {number}: they are numbered from 1 to {last}"));
+    };
+    let objects = |names: &[&str]| -> Result<Vec<Symbol>, String> {
+        let named = |name: &&str| match planned.objects.iter().find(|object| **object == **name) {
+            Some(object) => Ok(object.clone()),
+            None => Err(format!("{name} is not in step {step}; in it are {}", listed(&planned.objects))),
+        };
         names.iter().map(named).collect()
     };
-    let (objection, because) = match rest {
+    let (objection, because) = match reason {
         [] => (None, String::new()),
         ["broken", names @ ..] => (Some(Objection::Broken { objects: objects(names)? }), ": broken".to_owned()),
         ["kind", names @ ..] => (Some(Objection::WrongKind { objects: objects(names)? }), ": wrong kind".to_owned()),
         ["while", atom @ ..] => {
-            let atom = GroundAtom::parse(&atom.concat()).ok()?;
-            if model.predicates.get(&atom.predicate).map(Vec::len) != Some(atom.arity()) {
-                return None;
-            }
+            let atom = atom_of(&atom.concat(), model)?;
             let because = format!(": not while {atom}");
             (Some(Objection::While { atom }), because)
         }
         ["now"] => (Some(Objection::NotNow), ": not now".to_owned()),
-        _ => return None,
+        _ => return Err(not_understood(answer)),
     };
-    Some(Confirmation::Reject { step, objection, reason: format!("rejected by a person{because}") })
+    Ok(Confirmation::Reject { step, objection, reason: format!("rejected by a person{because}") })
+}
+
+/// An atom over a predicate of the model, or why this is none.
+fn atom_of(text: &str, model: &ActionModel) -> Result<GroundAtom, String> {
+    if text.is_empty() {
+        return Err("while what? Write an atom after it, such as `on(cup_1,table_1)`".to_owned());
+    }
+    let atom = GroundAtom::parse(text).map_err(|error| error.to_string())?;
+    let name = &atom.predicate;
+    match model.predicates.get(name).map(Vec::len) {
+        Some(arity) if arity == atom.arity() => Ok(atom),
+        Some(arity) => Err(format!("`{name}` takes {}, not {}", count(arity as u64, "argument"), atom.arity())),
+        None => {
+            let near = did_you_mean(name.as_str(), model.predicates.keys());
+            let near = near.map(|question| format!(". {question}")).unwrap_or_default();
+            Err(format!("the model has no predicate `{name}`{near}"))
+        }
+    }
+}
+
+fn not_understood(answer: &str) -> String {
+    format!("not understood: {}; `?` says what can be answered", answer.trim())
+}
+
+fn listed(names: &[Symbol]) -> String {
+    names.iter().map(Symbol::as_str).collect::<Vec<_>>().join(", ")
 }
 
 /// A line from the person at the terminal. None at its end, or as soon as Ctrl-C is pressed: a line is waited for in

@@ -140,7 +140,7 @@ impl From<RunError> for Failure {
 }
 
 /// What files and programs say is repeated, but not obeyed.
-fn printable_lines(text: &str) -> String {
+pub(crate) fn printable_lines(text: &str) -> String {
     text.split('\n').map(printable).collect::<Vec<_>>().join("\n")
 }
 

@@ -19,6 +19,35 @@ fn each_answer() {
 }
 
 #[test]
+fn an_answer_that_means_nothing_is_answered() {
+    let folder = Folder::kitchen();
+    for (answer, said) in [
+        ("n 9", "there is no step 9: they are numbered from 1 to 5"),
+        ("n 0 broken", "there is no step 0: they are numbered from 1 to 5"),
+        ("n 3x", "there is no step 3x: they are numbered from 1 to 5"),
+        ("n 99999999999999999999", "there is no step 99999999999999999999: they are numbered from 1 to 5"),
+        ("x", "not understood: x; `?` says what can be answered"),
+        ("y 3", "not understood: y 3; `?` says what can be answered"),
+        ("n 2 hot", "not understood: n 2 hot; `?` says what can be answered"),
+        ("n hot", "not understood: n hot; `?` says what can be answered"),
+        ("n 2 now and then", "not understood: n 2 now and then; `?` says what can be answered"),
+        ("", "answer y, n, a or s; `?` says what can be answered"),
+        ("n 2 broken foo", "foo is not in step 2; in it are agent_1, blender_1, apple_1"),
+        ("n 2 kind blender_1 cup_1", "cup_1 is not in step 2; in it are agent_1, blender_1, apple_1"),
+        ("n 2 while foo(cup_1)", "the model has no predicate `foo`"),
+        ("n 2 while content_hold(cup_1)", "the model has no predicate `content_hold`. Did you mean `content_holds`?"),
+        ("n 2 while content_holds(cup_1)", "`content_holds` takes 2 arguments, not 1"),
+        ("n 2 while", "while what? Write an atom after it, such as `on(cup_1,table_1)`"),
+    ] {
+        let ended = asked(&folder, "K/tasks/T4.1.json --imagine --confirm", &format!("{answer}\ny\n"));
+        assert!(ended.contains(&format!("[s]top: {answer}\n{said}\nexecute? ")), "{answer}: {ended}");
+        assert!(ended.starts_with("exit 0\n"), "{answer}: it is asked again: {ended}");
+    }
+    let helped = asked(&folder, "K/tasks/T4.1.json --imagine --confirm", "help\n?\ns\n");
+    insta::assert_snapshot!("confirm-help", helped);
+}
+
+#[test]
 fn who_is_asked_about_what() {
     let folder = Folder::kitchen();
     let plain = asked(&folder, "K/tasks/T1.1.json --confirm", "");
