@@ -145,9 +145,14 @@ fn verdict(inspection: &Inspection) -> Text {
     let certain = inspection.findings.iter().filter(|finding| finding.problem.is_certain()).count();
     let others = inspection.findings.len() - certain;
     match (certain, others) {
-        (0, 0) => Text::new().with(Role::Good, "nothing found that would hurt learning"),
-        (0, 1) => Text::new().plain("1 thing may hurt learning, if it is not meant"),
-        (0, others) => Text::new().plain(format!("{others} things may hurt learning, if they are not meant")),
+        (0, 0) if inspection.tried.iter().any(|tried| tried.executed) => {
+            Text::new().with(Role::Good, "nothing found that would hurt learning")
+        }
+        (0, 0) => {
+            Text::new().with(Role::Good, "nothing found that would hurt learning").plain("; no action was carried out")
+        }
+        (0, 1) => Text::new().plain("1 thing may hurt learning, unless it is intended"),
+        (0, others) => Text::new().plain(format!("{others} things may hurt learning, unless they are intended")),
         (certain, others) => {
             let more = if others > 0 { format!(", {others} more may") } else { String::new() };
             let hurts = if certain == 1 { "hurts" } else { "hurt" };

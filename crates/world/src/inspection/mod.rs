@@ -239,6 +239,11 @@ impl Inspector {
         before: Option<&State>,
     ) -> Result<Option<State>, WorldError> {
         let place = call.to_string();
+        let missing = call.args.iter().filter(|arg| !self.types_of_entities.contains_key(*arg));
+        for entity in missing.cloned().collect::<Vec<_>>() {
+            let near = nearest(entity.as_str(), self.types_of_entities.keys()).cloned();
+            self.find(&place, Problem::NoSuchEntity { entity, near });
+        }
         let acted = world.act(call)?;
         let after = self.look(&place, &acted.scene);
         let observed = world.observe()?;
@@ -265,6 +270,9 @@ impl Inspector {
     fn finish(mut self) -> Inspection {
         for problem in self.sightings.problems() {
             self.find("state", problem);
+        }
+        for name in self.parser.unmatched_ignores().cloned().collect::<Vec<_>>() {
+            self.find("state", Problem::NothingIgnored { name });
         }
         Inspection {
             entities: self.entities.unwrap_or_default(),

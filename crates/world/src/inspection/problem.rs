@@ -127,8 +127,22 @@ pub enum Problem {
         /// What it changed.
         change: Change,
     },
+    /// An action is to be tried with an entity that is not there.
+    #[error("there is no entity `{entity}`")]
+    NoSuchEntity {
+        /// Its name.
+        entity: Symbol,
+        /// The entity that may have been meant.
+        near: Option<Symbol>,
+    },
+    /// An attribute or relation that is to be left out was never met.
+    #[error("`{name}`, which is to be left out, was never met")]
+    NothingIgnored {
+        /// Its name.
+        name: Symbol,
+    },
     /// A relation that is now a list and now an id or null.
-    #[error("the relation `{relation}` is a list of {list}, and an id or null of {one}")]
+    #[error("the relation `{relation}` is now a list, as of {list}, and now an id or null, as of {one}")]
     MixedRelation {
         /// The relation.
         relation: Symbol,
@@ -196,6 +210,8 @@ impl Problem {
             Self::EntitiesChange { .. } => "entities_change",
             Self::ChangesNothing => "changes_nothing",
             Self::ChangesUnexecuted { .. } => "changes_unexecuted",
+            Self::NoSuchEntity { .. } => "no_such_entity",
+            Self::NothingIgnored { .. } => "nothing_ignored",
             Self::MixedRelation { .. } => "mixed_relation",
             Self::ListOfOne { .. } => "list_of_one",
             Self::MixedAttribute { .. } => "mixed_attribute",
@@ -210,6 +226,8 @@ impl Problem {
         !matches!(
             self,
             Self::ChangesNothing
+                | Self::NoSuchEntity { .. }
+                | Self::NothingIgnored { .. }
                 | Self::ListOfOne { .. }
                 | Self::FewNumbers { .. }
                 | Self::ManyWords { .. }
@@ -252,6 +270,9 @@ impl Problem {
             Self::ChangesUnexecuted { .. } => "Learning takes it for a failure, and does not learn the change: say \
                                                \"executed\":true where the action was carried out."
                 .to_owned(),
+            Self::NoSuchEntity { near: Some(near), .. } => format!("Did you mean `{near}`?"),
+            Self::NoSuchEntity { .. } => "Try it with one that the state shows.".to_owned(),
+            Self::NothingIgnored { .. } => "Is it spelt as the states spell it?".to_owned(),
             Self::MixedRelation { .. } => "Where there may be several it is a list, even of one or none; where there is at \
                                            most one it is an id or null."
                 .to_owned(),

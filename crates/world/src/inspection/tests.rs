@@ -124,7 +124,10 @@ fn lists_and_ids_are_told_apart() {
     let last = |first: &str, then: &str| {
         shown(&[&pump("", first), &pump("", first), &pump("", then)]).last().cloned().unwrap_or_default()
     };
-    assert_eq!(last(list, none), "state: the relation `feeds` is a list of pump_1, and an id or null of pump_1");
+    assert_eq!(
+        last(list, none),
+        "state: the relation `feeds` is now a list, as of pump_1, and now an id or null, as of pump_1"
+    );
     let of_one = "state: the relation `feeds` is a list, but never held more than one entity, and none of pump_1";
     assert_eq!(last(list, empty), of_one);
     assert_eq!(shown(&[&pump("", empty)]), Vec::<String>::new(), "it may come to hold several");
@@ -171,5 +174,18 @@ fn actions_that_cannot_be_learned_from() {
     assert_eq!(
         findings(Scripted::showing(&scenes), &calling()),
         ["start(pump_1): what is observed right after the answer differs from it: -on(pump_1)"]
+    );
+}
+
+#[test]
+fn what_is_asked_for_and_not_there_is_said() {
+    let call = GroundCall { name: Symbol::new("start"), args: vec![Symbol::new("pump_2"), Symbol::new("tank_1")] };
+    let parse = ParseConfig { ignore: [Symbol::new("flwo"), Symbol::new("on")].into() };
+    let scenes = [pump(r#""on":true,"flow":"High""#, "")];
+    let world = Scripted { executes: false, ..Scripted::showing(&[&scenes[0]]) };
+    let found = findings(world, &InspectOptions { parse, calls: vec![call], ..InspectOptions::default() });
+    assert_eq!(
+        found,
+        ["start(pump_2, tank_1): there is no entity `pump_2`", "state: `flwo`, which is to be left out, was never met"]
     );
 }
