@@ -7,7 +7,7 @@ use typelift::agent::{EpisodeError, ProposeError, RunError};
 use typelift::model::{ModelFileError, NameCollision, Stop, Symbol, nearest, printable};
 use typelift::pddl::ExportError;
 use typelift::plan::ExternalFailure;
-use typelift::world::{FileError, WorldError};
+use typelift::world::{FileError, ParseErrorKind, WorldError};
 
 use crate::exit::Exit;
 use crate::style::{ERROR, HINT};
@@ -128,8 +128,19 @@ impl From<RunError> for Failure {
         match error {
             RunError::World(error) => error.into(),
             RunError::Record(error) => error.into(),
-            RunError::State(error) => Self::new(Exit::Environment, format!("the environment's state cannot be read: {error}"))
-                .with_hint("A type that the model does not know can be added with --types; an attribute can be ignored when learning, with --ignore."),
+            RunError::State(error) => {
+                let hint = match &error.kind {
+                    ParseErrorKind::UnknownType { .. } => {
+                        Some("A type that the model does not know can be added with --types.")
+                    }
+                    ParseErrorKind::TwoSources { .. } => {
+                        Some("Rename one of the two; or learn with --ignore, which leaves an attribute out.")
+                    }
+                    kind => kind.hint(),
+                };
+                let what = format!("the environment's state cannot be read: {error}");
+                Self { hint: hint.map(str::to_owned), ..Self::new(Exit::Environment, what) }
+            }
             RunError::Episode(EpisodeError::Propose(error)) => error.into(),
             RunError::Episode(EpisodeError::Goal(error)) => {
                 let hint = error.hint();

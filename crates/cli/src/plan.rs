@@ -25,6 +25,9 @@ use crate::watchdog::watched;
 /// Where the plan of a PDDL domain is written unless the user says otherwise, as Fast Downward does.
 const DEFAULT_OUTPUT: &str = "sas_plan";
 
+/// Plans that may be asked for.
+const MOST_PLANS: u64 = 1000;
+
 /// The expansions that looking for another plan may take, if the user sets no limit.
 const EXPANSIONS_FOR_ANOTHER: u64 = 200_000;
 
@@ -51,7 +54,7 @@ pub(crate) struct Plan {
     task: PathBuf,
     /// Find N plans: each leaves out at least one action of every plan before it
     #[arg(long, value_name = "N", default_value_t = 1, allow_negative_numbers = true,
-        value_parser = clap::value_parser!(u64).range(1..=1000), conflicts_with = "planner")]
+        value_parser = parse_plans, conflicts_with = "planner")]
     plans: u64,
     /// Go on looking for cheaper plans until there is none, a limit is met, or Ctrl-C is pressed
     #[arg(long, conflicts_with_all = ["plans", "planner"])]
@@ -136,7 +139,8 @@ impl Plan {
         if plans.is_empty() {
             self.report_none(&last, &proposal, &model, &task, &budget);
         } else if !quiet {
-            self.report_end(&last, plans.len());
+            let limited = if self.better { &budget } else { &for_another };
+            self.report_end(&last, plans.len(), limited.expansions);
         }
         Ok(exit)
     }
@@ -306,19 +310,33 @@ impl Plan {
         true
     }
 
-    /// Says why there are no more plans, where more were wanted.
-    fn report_end(&self, outcome: &Outcome, found: usize) {
+    /// Says why there are no more plans, where more were wanted, and at most so many expansions were allowed.
+    fn report_end(&self, outcome: &Outcome, found: usize, allowed: Option<u64>) {
         if self.better || (found as u64) < self.plans {
-            let why = match outcome {
-                Outcome::NoMorePlans if !self.better => {
+            let why = match (outcome, allowed) {
+                (Outcome::Stopped(Stop::Expansions), Some(allowed)) => {
+                    format!("gave up at the limit of {}", count(allowed, "expansion"))
+                }
+                (Outcome::NoMorePlans, _) if !self.better => {
                     "any other takes the steps of one of these in another order, or adds to them".to_owned()
                 }
-                outcome => ending(outcome),
+                _ => ending(outcome),
             };
             let what = if self.better { "no better plan" } else { "no further plan" };
             anstream::eprintln!("{what}: {why}");
+            if let Outcome::Stopped(stop) = outcome
+                && let Some(advice) = what_to_try(*stop)
+            {
+                anstream::eprintln!("{HINT}hint{HINT:#}: {advice}");
+            }
         }
     }
+}
+
+/// Reads how many plans are wanted.
+fn parse_plans(text: &str) -> Result<u64, String> {
+    let number = text.parse().ok().filter(|number| (1..=MOST_PLANS).contains(number));
+    number.ok_or_else(|| format!("write a whole number from 1 to {MOST_PLANS}"))
 }
 
 /// Says that the search did not even begin.

@@ -116,13 +116,7 @@ impl FileError {
                     None => "Add it to the hierarchy.".to_owned(),
                 })
             }
-            ParseErrorKind::Name(_) => Some("A name is a word without white space and ( ) , ; \".".to_owned()),
-            ParseErrorKind::UnknownEntity { .. } => {
-                Some("List that entity too; where a relation is to nothing, write null.".to_owned())
-            }
-            ParseErrorKind::Duplicate => Some("Give each entity a name of its own.".to_owned()),
-            ParseErrorKind::TwoSources { .. } => Some("Rename one of the two, or ignore it.".to_owned()),
-            _ => None,
+            kind => kind.hint().map(str::to_owned),
         };
         Self { line: line.map(number), ..Self::new(file, error.to_string()) }.with_hint(hint)
     }

@@ -79,6 +79,19 @@ pub enum ParseErrorKind {
     TrueAndUnknown(GroundAtom),
 }
 
+impl ParseErrorKind {
+    /// What to do about it, if that is known whatever the scene is read from.
+    pub fn hint(&self) -> Option<&'static str> {
+        match self {
+            Self::Name(_) => Some("A name is a word without white space and ( ) , ; \"."),
+            Self::UnknownEntity { .. } => Some("List that entity too; where a relation is to nothing, write null."),
+            Self::Duplicate => Some("Give each entity a name of its own."),
+            Self::TwoSources { .. } => Some("Rename one of the two, or ignore it."),
+            _ => None,
+        }
+    }
+}
+
 /// Why a scene is not a state.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{}{kind}", .entity.as_ref().map(|e| format!("entity {e}: ")).unwrap_or_default())]

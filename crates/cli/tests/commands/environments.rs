@@ -69,3 +69,24 @@ fn environments_that_fail() {
     assert!(ended.code == 35 && ended.out.starts_with(begins), "{ended}");
     insta::assert_snapshot!(transcript.0);
 }
+
+/// What is wrong with a state has its own remedy: --types helps against an unknown type only.
+#[test]
+fn a_state_that_cannot_be_read_comes_with_the_hint_for_what_is_wrong_with_it() {
+    let folder = Folder::kitchen();
+    for (entities, hint) in [
+        (r#"{"id":"a","type":"robot"}"#, "can be added with --types."),
+        (r#"{"id":"a","type":"agent"},{"id":"a","type":"agent"}"#, "Give each entity a name of its own."),
+        (
+            r#"{"id":"a","type":"agent","relations":{"holding":"b"}}"#,
+            "List that entity too; where a relation is to nothing, write null.",
+        ),
+    ] {
+        let hello = r#"{"id":1,"ok":true,"name":"test","reset":true}"#;
+        let state = format!(r#"{{"id":2,"ok":true,"state":{{"entities":[{entities}]}}}}"#);
+        folder.write("env.sh", format!("read x; echo '{hello}'; read x; echo '{state}'; cat"));
+        let ended = folder.run("run kitchen.json K/tasks/T1.1.json -q --env 'sh env.sh'");
+        assert!(ended.code == 35 && ended.err.ends_with(&format!("{hint}\n")), "{ended}");
+        assert_eq!(ended.err.contains("--types"), entities.contains("robot"), "{ended}");
+    }
+}

@@ -32,7 +32,8 @@ fn a_limit_that_is_met_after_the_first_plan_keeps_it() {
     let folder = Folder::kitchen();
     let ended = folder.run("plan kitchen.json K/tasks/T1.1.json --plans 100 --max-expansions 6 -o t");
     ended.succeeds();
-    assert_eq!(ended.err, "no further plan: gave up at the limit of expansions\n");
+    let advice = "hint: --max-expansions allows more of them; another --search may need fewer\n";
+    assert_eq!(ended.err, format!("no further plan: gave up at the limit of 6 expansions\n{advice}"));
     assert!(ended.out.starts_with("plan 1: 5 steps, ") && folder.names().len() == 3, "{ended}");
 }
 

@@ -18,6 +18,7 @@ fn wrong_command_lines() {
         "show m.json --bogus",
         "plan m.json",
         "plan m.json t.json --plans 0",
+        "plan m.json t.json --plans x",
         "plan m.json t.json --plans 3 --better",
         "plan m.json t.json --time-limit -1",
         "plan m.json t.json --time-limit soon",
