@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::marker::PhantomData;
 
-use serde::de::{Deserialize, Deserializer, Error, MapAccess, Visitor};
+use serde::de::{Deserialize, Deserializer, Error, IgnoredAny, MapAccess, Visitor};
 use typelift_model::Symbol;
 pub(crate) use typelift_model::json_message as message;
 
@@ -27,6 +27,12 @@ pub(crate) fn format(text: &str) -> Result<Option<String>, serde_json::Error> {
     }
     let mut values = serde_json::Deserializer::from_str(text).into_iter::<FormatLine>();
     Ok(values.next().transpose()?.and_then(|line| line.format))
+}
+
+/// The keys of an object, in order.
+pub(crate) fn keys(text: &str) -> Result<Vec<Symbol>, serde_json::Error> {
+    let pairs = pairs::<_, IgnoredAny>(&mut serde_json::Deserializer::from_str(text))?;
+    Ok(pairs.into_iter().map(|(key, IgnoredAny)| key).collect())
 }
 
 /// Refuses a format that is not the one read: `what`, and what to do about it.

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
-use typelift_model::{ArgumentTypes, Goal, GoalError, GroundAtom, Task};
+use typelift_model::{ArgumentTypes, Goal, GoalError, GroundAtom, Symbol, Task, did_you_mean};
 
 use crate::entity_line::UnreadKeys;
 use crate::trace_line::SceneLine;
@@ -91,13 +91,24 @@ impl TaskFile {
                     .map_err(|(what, hint)| FileError::new(name, what).with_hint(hint))?;
             }
         }
+        let keys = json::keys(text).map_err(json)?;
+        if !keys.iter().any(|key| *key == "goal") {
+            let unread = keys.iter().find(|key| !is_read(key));
+            let hint = unread.map(|key| format!("`{key}` is not read: is it meant to be `goal`?"));
+            return Err(FileError::new(name, "the task has no `goal`").with_hint(hint));
+        }
         let ReadTask { goal, state, scenario, seed } = serde_json::from_str(text).map_err(json)?;
+        let mut warnings = unread_keys(name, &keys);
+        if goal.is_empty() {
+            warnings.push(FileError::new(name, "the goal is empty: it holds in every state"));
+        }
         let mut unread = UnreadKeys::default();
         if let Some(state) = &state {
             unread.note(name, None, state.entities());
         }
+        warnings.extend(unread.warnings);
         let state = state.map(SceneLine::scene).transpose().map_err(|what| FileError::new(name, what))?;
-        Ok(Self { goal, state, scenario, seed, warnings: unread.warnings })
+        Ok(Self { goal, state, scenario, seed, warnings })
     }
 
     /// The planning task, if there is a state, checked against the model's predicates.
@@ -165,6 +176,23 @@ struct ReadTask {
     state: Option<SceneLine>,
     scenario: Option<serde_json::Value>,
     seed: Option<u64>,
+}
+
+/// The keys of a task.
+const KEYS: [&str; 5] = ["format", "goal", "state", "scenario", "seed"];
+
+fn is_read(key: &Symbol) -> bool {
+    KEYS.contains(&key.as_str())
+}
+
+/// Warnings of keys that nothing reads: a goal under another name would be taken for none.
+fn unread_keys(name: &Path, keys: &[Symbol]) -> Vec<FileError> {
+    let warning = |key: &Symbol| {
+        let near = did_you_mean(key.as_str(), &KEYS.map(Symbol::new));
+        let hint = near.unwrap_or_else(|| format!("A task may have {}.", KEYS.join(", ")));
+        FileError::new(name, format!("`{key}` is not read")).with_hint(hint)
+    };
+    keys.iter().filter(|key| !is_read(key)).map(warning).collect()
 }
 
 /// Reads a task file.

@@ -62,6 +62,33 @@ fn tasks_that_are_wrong() {
     insta::assert_snapshot!(transcript.0);
 }
 
+/// A goal of nothing is reached by nothing, which is seldom what was meant.
+#[test]
+fn tasks_in_which_something_is_probably_not_meant() {
+    let folder = Folder::kitchen();
+    let with = |key: &str| {
+        folder.changed("K/tasks/T1.1.json", "task.json", |task| task[key] = json!([]));
+        folder.run("plan kitchen.json task.json").err
+    };
+    let empty = "warning: task.json: the goal is empty: it holds in every state\n";
+    assert!(with("goal").contains(empty), "{}", with("goal"));
+    for (key, hint) in
+        [("goals", "Did you mean `goal`?"), ("gaol", "A task may have format, goal, state, scenario, seed.")]
+    {
+        let said = with(key);
+        assert!(said.contains(&format!("warning: task.json: `{key}` is not read\nhint: {hint}\n")), "{said}");
+    }
+    folder.changed("K/tasks/T1.1.json", "task.json", |task| task["goal"] = json!([]));
+    assert_eq!(folder.run("run kitchen.json task.json --kitchen -q").err, "");
+    assert!(folder.run("run kitchen.json task.json --kitchen").err.contains(empty));
+    folder.write("task.json", r#"{"format":"task/1","gaol":["free(a)"]}"#);
+    let ended = folder.refuses(31, "plan kitchen.json task.json");
+    assert!(
+        ended.err.contains("the task has no `goal`\nhint: `gaol` is not read: is it meant to be `goal`?"),
+        "{ended}"
+    );
+}
+
 #[test]
 fn files_that_are_no_tasks() {
     let folder = Folder::kitchen();
