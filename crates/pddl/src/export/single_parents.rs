@@ -13,7 +13,7 @@ use super::Compiled;
 use super::names::{folded, predicates, unused};
 
 /// A type that the tree does not have as it was.
-struct Told {
+struct TypeOutsideTree {
     /// The lowest type of the tree that covers all that it covered.
     cover: TypeId,
     predicate: Symbol,
@@ -23,13 +23,13 @@ struct Told {
 pub(super) fn compile(model: &ActionModel, task: Option<&Task>) -> Compiled {
     let (hierarchy, tree) = (&model.hierarchy, tree_of(&model.hierarchy));
     let mut used: BTreeSet<Symbol> = predicates(model, task).into_keys().map(folded).collect();
-    let told: BTreeMap<TypeId, Told> = hierarchy
+    let told: BTreeMap<TypeId, TypeOutsideTree> = hierarchy
         .types()
         .filter_map(|ty| {
             let below: Vec<TypeId> = hierarchy.types().filter(|&below| hierarchy.is_a(below, ty)).collect();
             let is_told = below.iter().any(|&below| !tree.is_a(below, ty));
             let cover = is_told.then(|| below.into_iter().reduce(|a, b| tree.lca(a, b))).flatten()?;
-            Some((ty, Told { cover, predicate: unused(&format!("is-{}", hierarchy.name(ty)), &mut used) }))
+            Some((ty, TypeOutsideTree { cover, predicate: unused(&format!("is-{}", hierarchy.name(ty)), &mut used) }))
         })
         .collect();
     let mut compiled = Compiled { model: model.clone(), task: task.cloned(), notes: Vec::new() };
@@ -37,7 +37,7 @@ pub(super) fn compile(model: &ActionModel, task: Option<&Task>) -> Compiled {
     let mut conditions = |parameters: &mut [Parameter], first: u32| -> Vec<Literal> {
         let mut conditions = Vec::new();
         for (parameter, index) in parameters.iter_mut().zip(first..) {
-            if let Some(Told { cover, predicate }) = told.get(&parameter.ty) {
+            if let Some(TypeOutsideTree { cover, predicate }) = told.get(&parameter.ty) {
                 needed.insert(parameter.ty);
                 parameter.ty = *cover;
                 conditions.push(Literal::positive(LiftedAtom::new(predicate.clone(), vec![Term::Param(index)])));
@@ -62,7 +62,7 @@ pub(super) fn compile(model: &ActionModel, task: Option<&Task>) -> Compiled {
         *ty = told.get(ty).map_or(*ty, |told| told.cover);
     }
     for ty in needed {
-        let Told { cover, predicate } = &told[&ty];
+        let TypeOutsideTree { cover, predicate } = &told[&ty];
         compiled.model.predicates.insert(predicate.clone(), vec![*cover]);
         compiled.notes.push(format!("{predicate} holds of what is of the type {}", hierarchy.name(ty)));
         if let Some(task) = &mut compiled.task {

@@ -2,7 +2,7 @@
 
 use typelift_model::{ActionModel, ActionSchema, Parameter, Term};
 
-use super::{ListDifference, Said};
+use super::{ActionText, ListDifference};
 
 /// Parameters that a call does not name and that are tried in every order; the others keep theirs.
 const MOST_RENAMED: usize = 6;
@@ -23,11 +23,11 @@ pub(super) struct Pair {
 pub(super) fn matching(first: &ActionModel, second: &ActionModel, fold: &impl Fn(String) -> String) -> Vec<Pair> {
     let mut candidates = Vec::new();
     for (i, a) in first.actions.iter().enumerate() {
-        let said_of_a = Said::of(a, first, &a.parameters, fold);
+        let said_of_a = ActionText::of(a, first, &a.parameters, fold);
         for (j, b) in second.actions.iter().enumerate().filter(|(_, b)| is_of_one_skill(a, b, fold)) {
             let best = renamings(a, b, fold).into_iter().filter_map(|renaming| {
                 let names: Vec<Parameter> = renaming.iter().map(|&of_a| a.parameters[of_a].clone()).collect();
-                let differs = differences(&said_of_a, &Said::of(b, second, &names, fold))?;
+                let differs = differences(&said_of_a, &ActionText::of(b, second, &names, fold))?;
                 Some(Pair { first: i, second: j, renaming, differs })
             });
             candidates.extend(best.min_by_key(|pair| pair.differs));
@@ -53,7 +53,7 @@ fn is_of_one_skill(a: &ActionSchema, b: &ActionSchema, fold: &impl Fn(String) ->
 }
 
 /// How much differs; nothing if they have effects, and none in common: such actions are different ones of one skill.
-fn differences(a: &Said, b: &Said) -> Option<usize> {
+fn differences(a: &ActionText, b: &ActionText) -> Option<usize> {
     let common = a.adds.intersection(&b.adds).count() + a.deletes.intersection(&b.deletes).count();
     let effects = a.adds.len() + a.deletes.len() + b.adds.len() + b.deletes.len();
     let lists = [

@@ -140,8 +140,8 @@ fn axioms(model: &ActionModel) -> Vec<String> {
     said.collect()
 }
 
-/// What is said of an action whose parameters are called as these.
-struct Said {
+/// An action in words, its parameters called as another calls its own.
+struct ActionText {
     parameters: BTreeSet<String>,
     needs: BTreeSet<String>,
     adds: BTreeSet<String>,
@@ -149,7 +149,7 @@ struct Said {
     costs: BTreeSet<String>,
 }
 
-impl Said {
+impl ActionText {
     /// Of an action of this model; `names[i]` is what its parameter `i` is called.
     fn of(action: &ActionSchema, model: &ActionModel, names: &[Parameter], fold: &impl Fn(String) -> String) -> Self {
         let h = &model.hierarchy;
@@ -194,9 +194,9 @@ fn changes(
     fold: &impl Fn(String) -> String,
 ) -> ActionDifference {
     let (a, b) = (&first.actions[pair.first], &second.actions[pair.second]);
-    let said_of_a = Said::of(a, first, &a.parameters, fold);
+    let said_of_a = ActionText::of(a, first, &a.parameters, fold);
     let names: Vec<Parameter> = pair.renaming.iter().map(|&of_a| a.parameters[of_a].clone()).collect();
-    let said_of_b = Said::of(b, second, &names, fold);
+    let said_of_b = ActionText::of(b, second, &names, fold);
     ActionDifference {
         first: a.name.to_string(),
         second: b.name.to_string(),
