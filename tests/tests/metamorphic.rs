@@ -11,8 +11,8 @@ use typelift::agent::{Options, propose};
 use typelift::imagine;
 use typelift::learn::{self, learn_dataset};
 use typelift::model::{
-    ActionModel, ActionSchema, Atom, Budget, Cluster, ClusterKey, GroundAtom, GroundCall, Hierarchy, LearnedModel,
-    LiftedAtom, Observations, PreStates, Provenance, ROOT, State, Step, Support, Symbol, Task,
+    ActionModel, ActionSchema, Atom, Budget, Cluster, ClusterKey, Goal, GroundAtom, GroundCall, Hierarchy,
+    LearnedModel, LiftedAtom, Observations, PreStates, Provenance, ROOT, State, Step, Support, Symbol, Task,
 };
 use typelift::plan::{Outcome, Restrictions};
 use typelift::world::Dataset;
@@ -43,7 +43,11 @@ impl Renaming {
         let place = |i: usize| if same_order { i } else { scattered(i) };
         let states =
             || dataset.traces.iter().flat_map(|trace| &trace.states).chain(tasks.iter().map(|task| &task.init));
-        let atoms = || states().flat_map(|state| &state.atoms).chain(tasks.iter().flat_map(|task| &task.goal.required));
+        let atoms = || {
+            states()
+                .flat_map(|state| &state.atoms)
+                .chain(tasks.iter().flat_map(|task| task.goal.literals().map(|(atom, _)| atom)))
+        };
         let calls = dataset.traces.iter().flat_map(|trace| &trace.actions).map(|action| action.call.name.clone());
         let types = dataset.hierarchy.types().map(|t| dataset.hierarchy.name(t).clone());
         let types: BTreeSet<Symbol> = types.filter(|name| *name != ROOT).collect();
@@ -90,6 +94,12 @@ impl Renaming {
         }
     }
 
+    fn goal(&self, goal: &Goal) -> Goal {
+        let [required, forbidden] =
+            [&goal.required, &goal.forbidden].map(|atoms| atoms.iter().map(|atom| self.ground(atom)).collect());
+        Goal { required, forbidden }
+    }
+
     fn call(&self, call: &GroundCall) -> GroundCall {
         GroundCall {
             name: self.calls[&call.name].clone(),
@@ -98,7 +108,7 @@ impl Renaming {
     }
 
     fn task(&self, task: &Task) -> Task {
-        Task::new(self.state(&task.init), task.goal.required.iter().map(|atom| self.ground(atom)).collect::<Vec<_>>())
+        Task::new(self.state(&task.init), self.goal(&task.goal))
     }
 
     fn dataset(&self, dataset: &Dataset) -> Dataset {
@@ -106,7 +116,7 @@ impl Renaming {
         renamed.hierarchy = self.hierarchy(&dataset.hierarchy);
         for trace in &mut renamed.traces {
             trace.states = trace.states.iter().map(|state| self.state(state)).collect();
-            trace.goal = trace.goal.iter().map(|atom| self.ground(atom)).collect();
+            trace.goal = self.goal(&trace.goal);
             for action in &mut trace.actions {
                 action.call = self.call(&action.call);
             }

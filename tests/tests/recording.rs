@@ -46,7 +46,7 @@ fn recorded(
     let budget = Budget::with_expansions(20_000);
     let mut episode = Episode::new(Arc::clone(model), task.goal.clone(), options, Experience::new(), budget);
     let reset = Reset { seed: 0, scenario: Some(task.scenario.clone()) };
-    let header = TraceHeader { task: task.name.clone(), goal: task.goal.clone() };
+    let header = TraceHeader { task: task.name.clone(), goal: task.goal.clone().into() };
     let (mut heard, mut recorder) = (Heard::default(), Recorder::new(folder, &task.name, header));
     let mut parser = Parser::new(hierarchy(), ParseConfig::default());
     let mut approve = |_: &Plan| Confirmation::Approve;

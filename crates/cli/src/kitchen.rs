@@ -116,7 +116,13 @@ fn export(folder: &Path, seed: u64, quiet: bool) -> Result<Exit, Failure> {
 fn task_file(task: &KitchenTask, seed: u64) -> Result<TaskFile, Failure> {
     let scenario = Some(task.scenario.clone());
     let state = Simulator::new().reset(&Reset { seed, scenario: scenario.clone() })?;
-    Ok(TaskFile { goal: task.goal.clone(), state: Some(state), scenario, seed: Some(seed), ..TaskFile::default() })
+    Ok(TaskFile {
+        goal: task.goal.clone().into(),
+        state: Some(state),
+        scenario,
+        seed: Some(seed),
+        ..TaskFile::default()
+    })
 }
 
 /// What is printed of a replayed trace with `--json`.

@@ -165,12 +165,12 @@ impl Run {
         narrator.planning = Duration::ZERO;
         narrator.hierarchy = model.hierarchy.clone();
         let budget = narrator.bounds(self.planning.limits.budget(*clock, interrupt, Some(EXPANSIONS)));
-        let goal = task.goal.clone();
-        let mut episode = Episode::new(Arc::clone(&model), goal, options.clone(), experience.clone(), budget)
-            .with_values(task.values);
+        let mut episode =
+            Episode::new(Arc::clone(&model), task.goal.clone(), options.clone(), experience.clone(), budget)
+                .with_values(task.values);
         let mut parser = Parser::new(model.hierarchy.clone(), parse.clone());
         let mut confirm = |plan: &Plan| confirm(self.confirm, plan, &model, interrupt);
-        let header = TraceHeader { task: name.clone(), goal: task.goal.required };
+        let header = TraceHeader { task: name.clone(), goal: task.goal };
         let mut recorder = self.record.as_ref().map(|folder| Recorder::new(folder, &name, header));
         let recorded = recorder.as_mut();
         let ran = run(&mut episode, &mut **world, &reset, &mut parser, &mut confirm, narrator, recorded);

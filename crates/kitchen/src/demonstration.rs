@@ -72,7 +72,7 @@ fn demonstrate(
 ) -> Demonstration {
     let mut kinds = vec![Plate];
     kinds.extend(dishes.iter().map(|dish| dish.food));
-    let header = TraceHeader { task: task.to_owned(), goal: goal(dishes) };
+    let header = TraceHeader { task: task.to_owned(), goal: goal(dishes).into() };
     let mut demonstrator = Demonstrator::new(&kinds, seed, header);
     script(&mut demonstrator);
     Demonstration { name: name.to_owned(), recording: demonstrator.recording }

@@ -20,9 +20,9 @@ fn lengths_and_goals() {
         assert_eq!(lengths, [5, 5, 5, 10, 8, 15, 10, 10]);
         for demonstration in &all {
             let states = states(demonstration);
-            assert!(states.last().unwrap().satisfies(&demonstration.recording.header.goal), "{}", demonstration.name);
-            let goal_before_the_end =
-                states[..states.len() - 1].iter().any(|s| s.satisfies(&demonstration.recording.header.goal));
+            let goal = &demonstration.recording.header.goal;
+            assert!(goal.holds_in(states.last().unwrap()), "{}", demonstration.name);
+            let goal_before_the_end = states[..states.len() - 1].iter().any(|state| goal.holds_in(state));
             assert!(!goal_before_the_end && states.windows(2).all(|pair| pair[0].atoms != pair[1].atoms));
         }
     }
@@ -43,7 +43,7 @@ fn names_and_words() {
         ("cut_lettuce_blend_carrot", "cut a lettuce and blend a carrot"),
     ];
     assert_eq!(names, expected);
-    let goal: Vec<String> = all[5].recording.header.goal.iter().map(ToString::to_string).collect();
+    let goal: Vec<String> = all[5].recording.header.goal.required.iter().map(ToString::to_string).collect();
     assert_eq!(goal[..2], ["toast_state_Toasted(bread_1)", "content_holds(plate_1,bread_1)"]);
 }
 

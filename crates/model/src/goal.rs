@@ -22,7 +22,7 @@ use crate::{ArgumentTypes, GroundAtom, State, Symbol, nearest};
 pub struct Goal {
     /// The atoms that must all hold, in the order in which they were asked for.
     pub required: Vec<GroundAtom>,
-    /// The atoms of which none may hold. Goals for learned models have none.
+    /// The atoms of which none may hold.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub forbidden: Vec<GroundAtom>,
 }

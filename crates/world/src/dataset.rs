@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use typelift_model::{GroundAtom, GroundCall, Hierarchy, ParseConfig, SourceId, State, Symbol, Unknown, Witness};
+use typelift_model::{Goal, GroundCall, Hierarchy, ParseConfig, SourceId, State, Symbol, Unknown, Witness};
 
 use crate::{Expected, FileError, Parser, Verdict};
 
@@ -11,8 +11,8 @@ use crate::{Expected, FileError, Parser, Verdict};
 pub struct TraceHeader {
     /// What is done, in words.
     pub task: String,
-    /// What is to hold in the end, if it is said.
-    pub goal: Vec<GroundAtom>,
+    /// What is to hold in the end, and what is not, if it is said.
+    pub goal: Goal,
 }
 
 /// One action of a trace.
@@ -48,8 +48,8 @@ pub struct Trace {
     pub source: Option<SourceId>,
     /// What was done, in words.
     pub task: String,
-    /// What was to hold in the end, if it was said.
-    pub goal: Vec<GroundAtom>,
+    /// What was to hold in the end, and what was not, if it was said.
+    pub goal: Goal,
     /// The states.
     pub states: Vec<State>,
     /// The actions.

@@ -7,6 +7,7 @@ mod dataset_file;
 mod entity_line;
 mod environment;
 mod file_error;
+mod goal_literals;
 mod hierarchy_file;
 mod inspection;
 mod json;
@@ -33,6 +34,7 @@ pub use dataset::{Dataset, Record, Repeated, Trace, TraceAction, TraceHeader, Tr
 pub use dataset_file::{any_trace_from, dataset_from, demonstrations_at, read_any_trace, read_dataset};
 pub use environment::{Acted, Reset, World, WorldError, instance_of};
 pub use file_error::FileError;
+pub use goal_literals::WrittenGoal;
 pub use hierarchy_file::{TypesFile, hierarchy_from_text, read_hierarchy, read_types};
 pub use inspection::{Change, Finding, InspectOptions, Inspection, Problem, Tried, inspect};
 pub use line_reader::LINE_LIMIT;

@@ -4,11 +4,11 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
-use typelift_model::{ArgumentTypes, Goal, GoalError, GroundAtom, Symbol, Task, did_you_mean};
+use typelift_model::{ArgumentTypes, Goal, GoalError, Symbol, Task, did_you_mean};
 
 use crate::entity_line::UnreadKeys;
 use crate::trace_line::SceneLine;
-use crate::{FileError, ParseError, Parser, Scene, json, read_text, write_file};
+use crate::{FileError, ParseError, Parser, Scene, WrittenGoal, goal_literals, json, read_text, write_file};
 
 /// The format that this version reads and writes.
 pub const TASK_FORMAT: &str = "task/1";
@@ -16,8 +16,8 @@ pub const TASK_FORMAT: &str = "task/1";
 /// What is to be achieved, and from where.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct TaskFile {
-    /// The atoms that must hold in the end.
-    pub goal: Vec<GroundAtom>,
+    /// What must hold in the end, and what must not.
+    pub goal: Goal,
     /// The state to start from.
     pub state: Option<Scene>,
     /// What the environment is to set up, in its own terms.
@@ -99,7 +99,7 @@ impl TaskFile {
         }
         let ReadTask { goal, state, scenario, seed } = serde_json::from_str(text).map_err(json)?;
         let mut warnings = unread_keys(name, &keys);
-        if goal.is_empty() {
+        if goal == Goal::default() {
             warnings.push(FileError::new(name, "the goal is empty: it holds in every state"));
         }
         let mut unread = UnreadKeys::default();
@@ -118,16 +118,15 @@ impl TaskFile {
     pub fn task(&self, parser: &mut Parser, predicates: &ArgumentTypes) -> Result<Task, TaskError> {
         let scene = self.state.as_ref().ok_or(TaskError::NoState)?;
         let init = parser.parse(scene).map_err(TaskError::State)?;
-        let goal = Goal::from(self.goal.clone());
-        goal.check(&init, predicates)?;
-        Ok(Task::new(init, goal))
+        self.goal.check(&init, predicates)?;
+        Ok(Task::new(init, self.goal.clone()))
     }
 
     /// The task as JSON text, ending in a line feed.
     pub fn to_json(&self) -> String {
         let written = WrittenTask {
             format: TASK_FORMAT.to_owned(),
-            goal: &self.goal,
+            goal: WrittenGoal(&self.goal),
             state: self.state.as_ref(),
             scenario: self.scenario.as_ref(),
             seed: self.seed,
@@ -145,8 +144,8 @@ struct WrittenTask<'a> {
     /// The format and its version.
     #[cfg_attr(feature = "schema", schemars(extend("const" = TASK_FORMAT)))]
     format: String,
-    /// The atoms that must hold in the end.
-    goal: &'a [GroundAtom],
+    /// What must hold in the end, and what must not.
+    goal: WrittenGoal<'a>,
     /// The state to start from.
     #[serde(skip_serializing_if = "Option::is_none")]
     state: Option<&'a Scene>,
@@ -172,7 +171,8 @@ impl schemars::JsonSchema for TaskFile {
 #[derive(Deserialize)]
 #[serde(expecting = "a task")]
 struct ReadTask {
-    goal: Vec<GroundAtom>,
+    #[serde(deserialize_with = "goal_literals::deserialize")]
+    goal: Goal,
     state: Option<SceneLine>,
     scenario: Option<serde_json::Value>,
     seed: Option<u64>,

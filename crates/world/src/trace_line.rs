@@ -3,10 +3,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
-use typelift_model::{GroundAtom, GroundCall, Pattern, Symbol};
+use typelift_model::{Goal, GroundAtom, GroundCall, Pattern, Symbol};
 
 use crate::entity_line::EntityLine;
-use crate::{Expected, Scene, Snapshot, TraceAction, TraceHeader, Verdict, json};
+use crate::{Expected, Scene, Snapshot, TraceAction, TraceHeader, Verdict, WrittenGoal, goal_literals, json};
 
 /// The format that this version reads and writes.
 pub const TRACE_FORMAT: &str = "trace/1";
@@ -27,9 +27,9 @@ pub enum TraceLine<'a> {
         /// What is done, in words.
         #[cfg_attr(feature = "schema", schemars(default))]
         task: &'a str,
-        /// What is to hold in the end.
+        /// What is to hold in the end, and what is not.
         #[cfg_attr(feature = "schema", schemars(default))]
-        goal: &'a [GroundAtom],
+        goal: WrittenGoal<'a>,
     },
     /// A state; the first line after the header, and the one after each action.
     State {
@@ -60,7 +60,7 @@ pub enum TraceLine<'a> {
 
 impl<'a> From<&'a TraceHeader> for TraceLine<'a> {
     fn from(header: &'a TraceHeader) -> Self {
-        Self::Header { format: TRACE_FORMAT, task: &header.task, goal: &header.goal }
+        Self::Header { format: TRACE_FORMAT, task: &header.task, goal: WrittenGoal(&header.goal) }
     }
 }
 
@@ -89,8 +89,8 @@ impl<'a> From<&'a TraceAction> for TraceLine<'a> {
 pub(crate) struct HeaderLine {
     #[serde(default)]
     pub(crate) task: String,
-    #[serde(default)]
-    pub(crate) goal: Vec<GroundAtom>,
+    #[serde(default, deserialize_with = "goal_literals::deserialize")]
+    pub(crate) goal: Goal,
 }
 
 /// A line after the header, as it is read.

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use typelift_model::GroundCall;
+use typelift_model::{Goal, GroundCall};
 use typelift_world::{Expected, Recorder, Recording, Scene, TraceAction, TraceHeader, TraceReader, Verdict};
 
 fn scene(atom: &str) -> Scene {
@@ -18,7 +18,7 @@ fn action(verdict: Verdict) -> TraceAction {
 }
 
 fn header() -> TraceHeader {
-    TraceHeader { task: "go".to_owned(), goal: Vec::new() }
+    TraceHeader { task: "go".to_owned(), goal: Goal::default() }
 }
 
 fn read(path: &Path) -> Recording {

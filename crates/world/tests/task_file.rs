@@ -5,7 +5,7 @@ use std::path::Path;
 use proptest::prelude::*;
 use serde_json::json;
 use typelift_model::testing::cases;
-use typelift_model::{ArgumentTypes, GroundAtom, Hierarchy, ParseConfig, Symbol};
+use typelift_model::{ArgumentTypes, Goal, GroundAtom, Hierarchy, ParseConfig, Symbol, Task};
 use typelift_world::{FileError, Parser, Scene, TaskFile, read_task, write_file, write_task};
 
 fn read(text: &str) -> Result<TaskFile, FileError> {
@@ -31,7 +31,9 @@ fn task(goal: &str) -> Result<String, (String, Option<String>)> {
     );
     let mut parser = parser();
     match read(&text).expect("a file").task(&mut parser, &predicates()) {
-        Ok(task) => Ok(format!("{:?} from {:?}", task.goal.required, task.init.atoms)),
+        Ok(Task { goal, init, .. }) => {
+            Ok(format!("{:?} without {:?} from {:?}", goal.required, goal.forbidden, init.atoms))
+        }
         Err(error) => {
             let error = error.in_file(Path::new("task.json"), &parser);
             Err((error.to_string(), error.hint))
@@ -41,7 +43,8 @@ fn task(goal: &str) -> Result<String, (String, Option<String>)> {
 
 #[test]
 fn with_a_state_or_a_scenario() {
-    assert_eq!(task("free(block_1)"), Ok("[free(block_1)] from {free(block_1)}".to_owned()));
+    assert_eq!(task("free(block_1)"), Ok("[free(block_1)] without [] from {free(block_1)}".to_owned()));
+    assert_eq!(task("not free(block_1)"), Ok("[] without [free(block_1)] from {free(block_1)}".to_owned()));
     let file = read(r#"{"format":"task/1","goal":[],"scenario":{"level":3},"seed":18446744073709551615,"note":""}"#)
         .expect("a file");
     assert_eq!((file.state, file.seed), (None, Some(u64::MAX)));
@@ -109,6 +112,15 @@ fn what_is_refused() {
             "{\"format\":\"task/1\",\n \"goal\":[\"free(a)\",\n  \"free(a\"]}",
             "task.json:3:11: `free(a` is not an atom of the form predicate(entity,entity)",
         ),
+        (r#"{"format":"task/1","goal":["not (on(a))"]}"#, NOT_AN_ATOM),
+        (
+            "{\"format\":\"task/1\",\n \"goal\":[\"free(a)\",\n  \"not free(a)\"\n ]}",
+            "task.json:4:2: the goal contradicts itself: it has `free(a)` and `not free(a)`",
+        ),
+        (
+            r#"{"format":"task/1","goal":["not free(a)","free( a )"]}"#,
+            "task.json:1:53: the goal contradicts itself: it has `free(a)` and `not free(a)`",
+        ),
         ("{\"format\":\"task/1\",\n \"goal\":[", "task.json:2:9: the JSON text ends too early"),
         (r#"{"format":"task/1","goal":[],"state":{}}"#, "task.json: this state has neither `entities` nor `objects`"),
     ] {
@@ -116,21 +128,43 @@ fn what_is_refused() {
     }
 }
 
+const NOT_AN_ATOM: &str = "task.json:1:41: `not (on(a))` is not an atom of the form predicate(entity,entity)";
+
+#[test]
+fn a_goal_is_written_as_a_list_of_texts() {
+    let goal = Goal {
+        required: vec![GroundAtom::new("free", vec!["a".into()])],
+        forbidden: vec![GroundAtom::new("on", vec!["a".into(), "b".into()]), GroundAtom::new("dark", vec![])],
+    };
+    let written = TaskFile { goal, ..TaskFile::default() }.to_json();
+    assert_eq!(
+        written,
+        "{\n  \"format\": \"task/1\",\n  \"goal\": [\n    \"free(a)\",\n    \"not on(a,b)\",\n    \"not dark()\"\n  ]\n}\n"
+    );
+}
+
 fn name() -> impl Strategy<Value = Symbol> {
     "[a-zA-Zé☃][a-z0-9_\\-]{0,3}".prop_map(Symbol::from)
 }
 
+fn goal() -> impl Strategy<Value = Goal> {
+    let atom =
+        (name(), prop::collection::vec(name(), 0..3)).prop_map(|(predicate, args)| GroundAtom { predicate, args });
+    let atoms = prop::collection::vec(atom.boxed(), 0..3);
+    (atoms.clone(), atoms).prop_map(|(required, mut forbidden)| {
+        forbidden.retain(|atom| !required.contains(atom));
+        Goal { required, forbidden }
+    })
+}
+
 prop_compose! {
     fn any_task()(
-        goal in prop::collection::vec(
-            (name(), prop::collection::vec(name(), 0..3)).prop_map(|(predicate, args)| GroundAtom { predicate, args }),
-            0..3,
-        ),
+        goal in goal(),
         objects in prop::option::of(prop::collection::btree_map(name(), name(), 0..3)),
         scenario in prop::option::of("\\PC{0,8}".prop_map(|text| json!({"text": text, "n": [1, null]}))),
         seed in prop::option::of(any::<u64>()),
     ) -> TaskFile {
-        let atoms = goal.iter().cloned().collect();
+        let atoms = goal.required.iter().cloned().collect();
         let state = objects.map(|objects| Scene::Symbolic { objects, atoms, unknown: [].into() });
         TaskFile { goal, state, scenario, seed, ..TaskFile::default() }
     }
@@ -146,7 +180,7 @@ proptest! {
         write_task(&path, &task).expect("written");
         let read = read_task(&path).expect("a task");
         let warnings: Vec<&str> = read.warnings.iter().map(|warning| warning.what.as_str()).collect();
-        let expected: &[&str] = if task.goal.is_empty() { &["the goal is empty: it holds in every state"] } else { &[] };
+        let expected: &[&str] = if task.goal == Goal::default() { &["the goal is empty: it holds in every state"] } else { &[] };
         prop_assert_eq!(warnings, expected);
         prop_assert_eq!(TaskFile { warnings: Vec::new(), ..read }, task);
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use proptest::prelude::*;
 use typelift_model::testing::cases;
-use typelift_model::{GroundAtom, GroundCall, Hierarchy, ParseConfig, Pattern, Slot, Symbol};
+use typelift_model::{Goal, GroundAtom, GroundCall, Hierarchy, ParseConfig, Pattern, Slot, Symbol};
 use typelift_world::{
     Entity, Expected, FileError, Parser, Recording, Relation, Scene, Snapshot, Trace, TraceAction, TraceHeader,
     TraceReader, Value, Verdict, read_trace,
@@ -41,7 +41,7 @@ fn refused(lines: &[&str]) -> String {
 fn a_trace_is_read() {
     let trace = read(&[HEADER, STATE, ACTION, STATE, "", "  "]).expect("a trace");
     assert_eq!((trace.file, trace.task.as_str()), (Some(Symbol::new("a.jsonl")), "t"));
-    assert_eq!(trace.goal[0].to_string(), "free(a)");
+    assert_eq!(trace.goal.required[0].to_string(), "free(a)");
     assert_eq!((trace.states.len(), trace.actions.len()), (2, 1));
     let TraceAction { call, executed, reason, time, expected, verdict } = &trace.actions[0];
     assert_eq!((call.to_string().as_str(), *executed), ("GO(a)", Some(false)));
@@ -89,6 +89,12 @@ fn the_header_comes_first_and_names_the_version() {
         refused(&[r#"{"format":"trace/1","goal":["free(a"]}"#]),
         "a.jsonl:1:37: `free(a` is not an atom of the form predicate(entity,entity)"
     );
+    assert_eq!(
+        refused(&[r#"{"format":"trace/1","goal":["free(a)","not free(a)"]}"#]),
+        "a.jsonl:1:52: the goal contradicts itself: it has `free(a)` and `not free(a)`"
+    );
+    let negated = read(&[&HEADER.replace("free(a)", "not free(a)"), STATE]).expect("a trace");
+    assert_eq!(negated.goal.forbidden, [GroundAtom::new("free", vec!["a".into()])]);
     let hint = read(&[STATE]).expect_err("no header").hint;
     assert_eq!(hint.as_deref(), Some(r#"It is {"format":"trace/1","task":"…","goal":["…"]}."#));
 }
@@ -306,11 +312,14 @@ proptest! {
     #[test]
     fn reading_what_was_written_gives_it_back(
         task in "\\PC{0,12}",
-        goal in prop::collection::vec(atom(), 0..3),
+        required in prop::collection::vec(atom(), 0..3),
+        mut forbidden in prop::collection::vec(atom(), 0..3),
         first in scene(),
         steps in prop::collection::vec((action(), scene()), 0..4),
     ) {
-        let recording = Recording { header: TraceHeader { task, goal }, first, steps };
+        forbidden.retain(|atom| !required.contains(atom));
+        let header = TraceHeader { task, goal: Goal { required, forbidden } };
+        let recording = Recording { header, first, steps };
         let mut bytes = Vec::new();
         recording.write(&mut bytes).expect("written");
         let mut reader = TraceReader::new(Path::new("a"), bytes.as_slice()).expect("a header");

@@ -25,9 +25,9 @@ pub fn task(bytes: &[u8]) {
     assert_eq!(again.to_json(), written);
     let mut parser = Parser::new(sample::hierarchy(), ParseConfig::default());
     let root = parser.hierarchy().root();
-    let predicates = task.goal.iter().map(|atom| (atom.predicate.clone(), vec![root; atom.arity()])).collect();
+    let predicates = task.goal.literals().map(|(atom, _)| (atom.predicate.clone(), vec![root; atom.arity()])).collect();
     match task.task(&mut parser, &predicates) {
-        Ok(planned) => assert_eq!(planned.goal, task.goal.into()),
+        Ok(planned) => assert_eq!(planned.goal, task.goal),
         Err(error) => assert_shown(&error.in_file(Path::new("task"), &parser), bytes),
     }
 }

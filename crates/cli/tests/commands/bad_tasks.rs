@@ -16,9 +16,18 @@ fn goals_that_are_wrong() {
         ("another wrong arity", "content_holds(plate_1)"),
         ("an object that is nearly right", "chop_state_Chopped(letuce_1)"),
         ("an unknown object", "chop_state_Chopped(excalibur)"),
-        ("no atom", "not chopped"),
+        ("an unknown predicate that must not hold", "not happy(lettuce_1)"),
+        ("no atom", "chopped lettuce_1"),
+        ("a negated formula", "not (chop_state_Chopped(lettuce_1))"),
+        ("a contradiction", "not content_holds(plate_1,lettuce_1)"),
     ] {
-        folder.changed("K/tasks/T1.1.json", "task.json", |task| task["goal"] = json!([goal]));
+        // The task has a goal of its own, which the last one contradicts.
+        let kept = if title == "a contradiction" { 2 } else { 0 };
+        folder.changed("K/tasks/T1.1.json", "task.json", |task| {
+            let goals = task["goal"].as_array_mut().expect("a list");
+            goals.truncate(kept);
+            goals.push(json!(goal));
+        });
         transcript.add(title, &folder.refuses(31, "plan kitchen.json task.json -o t.plan"));
         let run = folder.run("run kitchen.json task.json --kitchen -q");
         assert_eq!((run.code, run.out.as_str()), (31, ""), "{run}");

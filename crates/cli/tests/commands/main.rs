@@ -20,6 +20,7 @@ mod lab_report;
 mod learning;
 mod learning_more;
 mod limits;
+mod negative_goals;
 mod outputs;
 mod pddl_files;
 mod pipes;
