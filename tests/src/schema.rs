@@ -113,11 +113,17 @@ fn list(value: &Value) -> &[Value] {
     value.as_array().map_or(&[], Vec::as_slice)
 }
 
+const ATOM: &str = r"^[^\s(),;]+(\([^()]*\))?$";
+
 /// Whether a text matches one of the patterns that there are.
 fn matches(pattern: &str, text: &str) -> bool {
     match pattern {
         r"^\d+$" => !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit()),
-        r"^[^\s(),;]+(\([^()]*\))?$" => {
+        r"^(not\s+)?[^\s(),;]+(\([^()]*\))?$" => {
+            let negated = text.strip_prefix("not").filter(|rest| rest.starts_with(char::is_whitespace));
+            matches(ATOM, negated.map_or(text, str::trim_start))
+        }
+        ATOM => {
             let (name, args) = text.split_once('(').unwrap_or((text, ")"));
             let is_part = |c: char| c.is_whitespace() || "(),;".contains(c);
             let args = args.strip_suffix(')');

@@ -5,8 +5,9 @@ use std::sync::Arc;
 use serde_json::{Value, json};
 use typelift::agent::{Experience, propose};
 use typelift::learn::learn_dataset;
-use typelift::model::Budget;
+use typelift::model::{Budget, Goal, GroundAtom};
 use typelift::words::{AnswerView, wire_event};
+use typelift::world::TaskFile;
 use typelift_kitchen::{demonstrations, faults};
 use typelift_tests::schema::Schema;
 use typelift_tests::{Watched, approve, dataset_of, kitchen_model, paper_options, planning_task, run_in};
@@ -27,6 +28,18 @@ fn traces_and_the_model_learned_from_them() {
     }
     let (learned, _) = learn_dataset(&dataset_of(&shown), &Default::default()).expect("a model");
     assert_eq!(Schema::named("model").check(&json(&learned.to_json().expect("text"))), Ok(()));
+}
+
+#[test]
+fn goals_of_which_a_part_must_not_hold() {
+    let [cut, on] = ["cut(a)", "on(a,b)"].map(|text| GroundAtom::parse(text).expect("an atom"));
+    let task = TaskFile { goal: Goal { required: vec![cut], forbidden: vec![on] }, ..TaskFile::default() };
+    assert_eq!(Schema::named("task").check(&json(&task.to_json())), Ok(()));
+    let said = |goal: &str| Schema::named("trace").check(&json!({"format": "trace/1", "goal": [goal]}));
+    assert_eq!([said("cut(a)"), said("not cut(a)")], [Ok(()), Ok(())]);
+    for wrong in ["not cut(a", "not  not cut(a)", "no cut(a)"] {
+        assert!(said(wrong).is_err(), "{wrong}");
+    }
 }
 
 #[test]
