@@ -145,10 +145,9 @@ impl Renaming {
 
     fn observations(&self, observations: &Observations) -> Observations {
         let types = |types: &BTreeSet<Symbol>| types.iter().map(|ty| self.types[ty].clone()).collect();
-        let predicates = observations
-            .predicates
-            .iter()
-            .map(|(name, arguments)| (self.predicates[name].clone(), arguments.iter().map(types).collect()));
+        let predicates = observations.predicates.iter().map(|((name, arity), arguments)| {
+            ((self.predicates[name].clone(), *arity), arguments.iter().map(types).collect())
+        });
         let clusters = observations.clusters.iter().map(|(key, cluster)| {
             let PreStates::Exact(states) = &cluster.states else { panic!("so many demonstrations?") };
             let states = states.iter().map(|(state, count)| (state.iter().map(|a| self.lifted(a)).collect(), *count));

@@ -103,9 +103,10 @@ impl Episode {
         mut experience: Experience,
         budget: Budget,
     ) -> Self {
+        let goal = goal.into().named_as_in(&model.predicates);
         Self {
             model,
-            goal: goal.into(),
+            goal,
             values: BTreeMap::new(),
             instance: options.instance.clone().unwrap_or_else(|| Symbol::new("")),
             options,

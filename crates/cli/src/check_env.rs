@@ -67,7 +67,10 @@ impl CheckEnv {
         let task = self.task.as_deref().map(read_task).transpose()?.unwrap_or_default();
         let options = InspectOptions {
             hierarchy,
-            parse: ParseConfig { ignore: self.ignore.iter().map(|name| Symbol::new(name)).collect() },
+            parse: ParseConfig {
+                ignore: self.ignore.iter().map(|name| Symbol::new(name)).collect(),
+                ..ParseConfig::default()
+            },
             reset: Reset { seed: self.seed.or(task.seed).unwrap_or(0), scenario: task.scenario },
             calls: self.act.clone(),
         };

@@ -115,7 +115,7 @@ fn atom_of(text: &str, model: &ActionModel) -> Result<GroundAtom, String> {
     if text.is_empty() {
         return Err("while what? Write an atom after it, such as `on(cup_1,table_1)`".to_owned());
     }
-    let atom = GroundAtom::parse(text).map_err(|error| error.to_string())?;
+    let atom = GroundAtom::parse(text).map_err(|error| error.to_string())?.named_as_in(&model.predicates);
     let name = &atom.predicate;
     match model.predicates.get(name).map(Vec::len) {
         Some(arity) if arity == atom.arity() => Ok(atom),

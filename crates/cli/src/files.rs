@@ -131,7 +131,7 @@ impl ModelInput {
                     Self::Learned(learned) => (learned.model, learned.parse),
                     Self::Given(domain) => (domain.model, ParseConfig::default()),
                 };
-                let mut parser = Parser::new(model.hierarchy.clone(), parse);
+                let mut parser = Parser::new(model.hierarchy.clone(), parse).knowing(&model.predicates);
                 let task = file.task(&mut parser, &model.predicates).map_err(|error| error.in_file(path, &parser))?;
                 Ok((model, task))
             }

@@ -7,7 +7,8 @@ use std::path::PathBuf;
 use serde::Serialize;
 use typelift::learn::{self, Actor, LearnError, Options, evidence_of, learn_evidence};
 use typelift::model::{
-    ClusterKey, LearnedModel, LiftedAtom, Observations, RefusedMerges, SourceId, Symbol, Unexplained,
+    ClusterKey, GroundAtom, LearnedModel, LiftedAtom, Observations, RefusedMerges, SourceId, Symbol, Unexplained,
+    name_with_arity, predicate_told_apart,
 };
 use typelift::words::{count, places, why_unexplained};
 use typelift::world::{
@@ -199,20 +200,21 @@ impl Learn {
         for (name, entities) in types {
             writeln!(out, "  {name:<24} {entities:>6}")?;
         }
-        let mut changes: BTreeMap<&Symbol, (usize, usize)> = BTreeMap::new();
+        let in_model = |atom: &GroundAtom| predicate_told_apart(&model.parse.by_arity, &atom.predicate, atom.arity());
+        let mut changes: BTreeMap<Symbol, (usize, usize)> = BTreeMap::new();
         for transition in dataset.transitions() {
-            let mut changed: Vec<&Symbol> = Vec::new();
+            let mut changed: Vec<Symbol> = Vec::new();
             let effect = transition.before.added(transition.after).chain(transition.before.deleted(transition.after));
             for atom in effect {
-                if !changed.contains(&&atom.predicate) {
-                    changed.push(&atom.predicate);
+                let predicate = in_model(atom);
+                if !changed.contains(&predicate) {
+                    changed.push(predicate);
                 }
             }
             for predicate in changed {
                 changes.entry(predicate).or_default().0 += 1;
             }
-            let mut held: Vec<&Symbol> = transition.before.atoms.iter().map(|atom| &atom.predicate).collect();
-            held.dedup();
+            let held: BTreeSet<Symbol> = transition.before.atoms.iter().map(in_model).collect();
             for predicate in held {
                 changes.entry(predicate).or_default().1 += 1;
             }
@@ -225,7 +227,7 @@ impl Learn {
         for (predicate, types) in &model.model.predicates {
             let (changed, held) = changes.get(predicate).copied().unwrap_or_default();
             let note = if changed == transitions { "  changes every time" } else { "" };
-            writeln!(out, "  {:<24} {changed:>6} {held:>6}{note}", format!("{predicate}/{}", types.len()))?;
+            writeln!(out, "  {:<24} {changed:>6} {held:>6}{note}", name_with_arity(predicate, types.len()).as_str())?;
         }
         let ignored: Vec<&str> = dataset.parse.ignore.iter().map(Symbol::as_str).collect();
         let ignored = if ignored.is_empty() { "nothing".to_owned() } else { ignored.join(", ") };

@@ -38,7 +38,8 @@ pub(crate) fn beginning(
 ) -> Result<LearnedModel, Failure> {
     let types = types.map(|path| Given::read(path)).transpose()?;
     let Some(path) = into else {
-        let mut none = LearnedModel { parse: ParseConfig { ignore }, ..LearnedModel::default() };
+        let mut none =
+            LearnedModel { parse: ParseConfig { ignore, ..ParseConfig::default() }, ..LearnedModel::default() };
         if let Some(Given { hierarchy, domain, constants, .. }) = types {
             (none.model.hierarchy, none.domain, none.model.constants) = (hierarchy, domain, constants);
         }
@@ -62,7 +63,7 @@ pub(crate) fn beginning(
         learned.domain = learned.domain.take().or(domain);
     }
     if !ignore.is_empty() {
-        let agreed = learned.agrees(&learned.model.hierarchy, &ParseConfig { ignore });
+        let agreed = learned.agrees(&learned.model.hierarchy, &ParseConfig { ignore, ..ParseConfig::default() });
         agreed.map_err(|error| {
             let hint = "Leave out --ignore: what the model ignores is ignored. Or learn from all traces anew.";
             Failure::bad_input(format!("--ignore: {error}")).with_hint(hint)
@@ -127,7 +128,6 @@ pub(crate) fn add(evidence: &mut Evidence, into: Option<&PathBuf>, shown: &Evide
             MergeError::ReadDifferently { .. } => {
                 "Give the same --problems, --objects, --closed or --open, or take it out with --forget first."
             }
-            MergeError::TwoArities { .. } => "Call it by another name in one of them, or give it as many arguments.",
             MergeError::UnknownSources => "Learn it anew from its traces.",
         };
         let place = into.map(|path| format!("{}: ", path.display())).unwrap_or_default();

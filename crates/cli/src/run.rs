@@ -168,7 +168,7 @@ impl Run {
         let mut episode =
             Episode::new(Arc::clone(&model), task.goal.clone(), options.clone(), experience.clone(), budget)
                 .with_values(task.values);
-        let mut parser = Parser::new(model.hierarchy.clone(), parse.clone());
+        let mut parser = Parser::new(model.hierarchy.clone(), parse.clone()).knowing(&model.predicates);
         let mut confirm = |plan: &Plan| confirm(self.confirm, plan, &model, interrupt);
         let header = TraceHeader { task: name.clone(), goal: task.goal };
         let mut recorder = self.record.as_ref().map(|folder| Recorder::new(folder, &name, header));

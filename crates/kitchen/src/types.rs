@@ -35,7 +35,7 @@ pub fn types_pddl() -> String {
 /// kitchen also tell where things are, which way the agent looks and what it touches.
 pub fn parse_config() -> ParseConfig {
     let ignore = ["location", "orientation", "interacts_with", "toggle", "walkable"];
-    ParseConfig { ignore: ignore.into_iter().map(Symbol::new).collect() }
+    ParseConfig { ignore: ignore.into_iter().map(Symbol::new).collect(), ..ParseConfig::default() }
 }
 
 #[cfg(test)]

@@ -146,6 +146,6 @@ impl<'a> Entities<'a> {
 
     /// The atom over their numbers, if it is about them alone.
     fn lift(&self, atom: &GroundAtom) -> Option<LiftedAtom> {
-        LiftedAtom::lift(atom, |object| self.index.get(object).copied())
+        LiftedAtom::lift(&atom.without_arity(), |object| self.index.get(object).copied())
     }
 }

@@ -122,9 +122,12 @@ pub fn learn_evidence(
     evidence: Evidence,
     options: &Options,
 ) -> Result<(LearnedModel, Report), LearnError> {
-    let Learned { model, report } = learn(hierarchy, &evidence.total(), options)?;
+    let total = evidence.total();
+    let Learned { model, report } = learn(hierarchy, &total, options)?;
     let refused = report.refused;
-    let (parse, options) = (parse.clone(), options.clone());
+    let parse = ParseConfig { by_arity: total.names_of_several_arities(), ..parse.clone() };
+    drop(total);
+    let options = options.clone();
     Ok((LearnedModel { model, domain: None, parse, options, evidence, refused }, report))
 }
 
@@ -143,6 +146,7 @@ pub fn learn(hierarchy: &Hierarchy, observations: &Observations, options: &Optio
     if !options.individual {
         (actions, counts) = generalize::to_fixed_point(actions, observations, hierarchy);
     }
+    predicates::tell_apart_by_arity(&mut actions, observations);
     let report = Report {
         transitions: observations.transitions,
         individual,

@@ -48,7 +48,7 @@ pub(crate) fn view<'a>(
     let ty = |object: &Symbol| before.objects.get(object).map(|ty| hierarchy.name(*ty));
     let mut known: BTreeMap<AtomKind, u64> = BTreeMap::new();
     for atom in listings.iter().flatten().copied().collect::<BTreeSet<_>>() {
-        let Some(kind) = AtomKind::of_ground(atom, ty) else { continue };
+        let Some(kind) = AtomKind::of_ground(&atom.without_arity(), ty) else { continue };
         let of_kind = known.entry(kind).or_default();
         if is_about(atom, &near) && listings.iter().all(|listed| listed.contains(atom)) {
             *of_kind += 1;

@@ -2,6 +2,7 @@
 
 use typelift_model::{
     ArgumentTypes, Atom, Hierarchy, LiftedAtom, Observations, Slot, State, Symbol, Term, TypeId, Unknown, cover,
+    predicate_told_apart,
 };
 use typelift_world::Trace;
 
@@ -14,7 +15,9 @@ pub(crate) fn observe_predicates(observations: &mut Observations, trace: &Trace,
     for state in &trace.states {
         let before = before.replace(state).filter(|before| before.objects == state.objects);
         let ty = |object: &Symbol| state.objects.get(object).map(|ty| hierarchy.name(*ty));
-        let mut met = |atom: &Atom<Symbol>| observations.add_predicate(&atom.predicate, atom.args.iter().map(ty));
+        let mut met = |atom: &Atom<Symbol>| {
+            observations.add_predicate(&atom.without_arity().predicate, atom.args.iter().map(ty));
+        };
         match before {
             None => state.atoms.iter().for_each(&mut met),
             Some(before) => state.atoms.difference(&before.atoms).for_each(&mut met),
@@ -30,9 +33,26 @@ pub(crate) fn observe_predicates(observations: &mut Observations, trace: &Trace,
                         Slot::Is(object) => ty(object),
                         Slot::Any => None,
                     });
-                    observations.add_predicate(&pattern.predicate, named);
+                    observations.add_predicate(&pattern.without_arity().predicate, named);
                 }
             }
+        }
+    }
+}
+
+/// Predicates of one name that take different numbers of arguments get names of their own.
+pub(crate) fn tell_apart_by_arity(actions: &mut [Draft], observations: &Observations) {
+    let by_arity = observations.names_of_several_arities();
+    if by_arity.is_empty() {
+        return;
+    }
+    let named = |atom: LiftedAtom| LiftedAtom {
+        predicate: predicate_told_apart(&by_arity, &atom.predicate, atom.arity()),
+        ..atom
+    };
+    for Draft { preconditions, adds, deletes, .. } in actions {
+        for atoms in [preconditions, adds, deletes] {
+            *atoms = std::mem::take(atoms).into_iter().map(named).collect();
         }
     }
 }
@@ -45,13 +65,14 @@ pub(crate) fn types_of_predicates(
 ) -> Result<ArgumentTypes, LearnError> {
     let id = |name: &Symbol| hierarchy.id(name.as_str()).ok_or_else(|| LearnError::UnknownType(name.clone()));
     let mut predicates = ArgumentTypes::new();
-    for (predicate, arguments) in &observations.predicates {
+    let by_arity = observations.names_of_several_arities();
+    for ((name, arity), arguments) in &observations.predicates {
         let mut types: Vec<TypeId> = Vec::with_capacity(arguments.len());
         for met in arguments {
             let ids = met.iter().map(id).collect::<Result<Vec<_>, _>>()?;
             types.push(ids.into_iter().reduce(|a, b| hierarchy.lca(a, b)).unwrap_or(hierarchy.root()));
         }
-        predicates.insert(predicate.clone(), types);
+        predicates.insert(predicate_told_apart(&by_arity, name, *arity), types);
     }
     for action in actions {
         let ty = |term: &Term| match term {

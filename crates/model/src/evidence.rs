@@ -46,25 +46,9 @@ pub enum MergeError {
         /// Its file's name.
         name: Symbol,
     },
-    /// The first predicate, in alphabetical order, that has other numbers of arguments in the two parts.
-    #[error("`{predicate}` takes {own} in the model, and {other} in {name}", own = arguments(*.own), other = arguments(*.other))]
-    TwoArities {
-        /// The predicate.
-        predicate: Symbol,
-        /// How many arguments it takes in the part that is added to.
-        own: usize,
-        /// How many in the part that is added.
-        other: usize,
-        /// A source of the part that is added where it takes so many, or `-` if it is not known which.
-        name: Symbol,
-    },
     /// A part does not name all that it was learned from, as in format 1.
     #[error("it does not say what it was learned from, so that it is not known what would count twice")]
     UnknownSources,
-}
-
-fn arguments(number: usize) -> String {
-    format!("{number} argument{}", if number == 1 { "" } else { "s" })
 }
 
 fn listed(sources: &[(SourceId, Symbol)]) -> String {
@@ -142,7 +126,6 @@ impl Evidence {
     /// # Errors
     /// [`MergeError`]; then nothing is added.
     pub fn merge(&mut self, other: &Self) -> Result<Vec<SourceId>, MergeError> {
-        self.check_arities(other)?;
         let shared: Vec<SourceId> = other.sources.keys().copied().filter(|id| self.sources.contains_key(id)).collect();
         if let (Observed::BySource(parts), Observed::BySource(others)) = (&mut self.observed, &other.observed) {
             for id in &shared {
@@ -175,30 +158,6 @@ impl Evidence {
         }
         self.sources.extend(other.sources.clone());
         Ok(shared)
-    }
-
-    /// That predicates take as many arguments there as here.
-    fn check_arities(&self, other: &Self) -> Result<(), MergeError> {
-        let known: BTreeMap<&Symbol, usize> =
-            self.predicates().map(|(_, predicate, arity)| (predicate, arity)).collect();
-        let differs =
-            |(_, predicate, arity): &(_, &Symbol, usize)| known.get(predicate).is_some_and(|own| own != arity);
-        match other.predicates().filter(differs).min_by_key(|(_, predicate, _)| *predicate) {
-            None => Ok(()),
-            Some((id, predicate, arity)) => Err(MergeError::TwoArities {
-                predicate: predicate.clone(),
-                own: known[predicate],
-                other: arity,
-                name: id.and_then(|id| other.sources.get(&id)).map_or_else(|| Symbol::new("-"), |s| s.name.clone()),
-            }),
-        }
-    }
-
-    /// Every predicate of every part, with its number of arguments.
-    fn predicates(&self) -> impl Iterator<Item = (Option<SourceId>, &Symbol, usize)> {
-        self.parts()
-            .into_iter()
-            .flat_map(|(id, part)| part.predicates.iter().map(move |(predicate, types)| (id, predicate, types.len())))
     }
 
     /// Whether there is neither a source nor anything observed.

@@ -170,7 +170,10 @@ impl EvidenceFile {
             compact: evidence.is_compact(),
             transitions: parts.iter().map(|(_, part)| part.transitions).sum(),
             sources: evidence.sources().iter().map(source).collect(),
-            predicates: predicates.into_iter().map(|(name, seen)| PredicateFile { name: name.clone(), seen }).collect(),
+            predicates: predicates
+                .into_iter()
+                .map(|((name, _), seen)| PredicateFile { name: name.clone(), seen })
+                .collect(),
             clusters: clusters.into_iter().map(|(key, seen)| ClusterFile { key: key.clone(), seen }).collect(),
             negatives: negatives.into_iter().map(|(key, seen)| NegativeFile { key: key.clone(), seen }).collect(),
             unexplained: unexplained
@@ -190,8 +193,9 @@ impl EvidenceFile {
         let part = |transitions| Observations { transitions, ..Observations::default() };
         let mut parts = Parts { compact: self.compact, parts: transitions.into_iter().map(part).collect() };
         for PredicateFile { name, seen } in self.predicates {
-            parts
-                .insert(name.as_str(), seen, |part, TypesFile { types }| part.predicates.insert(name.clone(), types))?;
+            parts.insert(name.as_str(), seen, |part, TypesFile { types }| {
+                part.predicates.insert((name.clone(), types.len()), types)
+            })?;
         }
         for ClusterFile { key, seen } in self.clusters {
             parts.insert(key.action.as_str(), seen, |part, cluster| part.clusters.insert(key.clone(), cluster))?;
@@ -279,7 +283,7 @@ impl Observations {
         for (reason, (count, _)) in &self.unexplained {
             add(vec![*count], &|| format!("\"evidence\" of {reason:?}"))?;
         }
-        for (name, types) in &self.predicates {
+        for ((name, _), types) in &self.predicates {
             let place = || format!("\"evidence\" of {name}");
             at_most(types.len(), MOST_PARAMETERS, "arguments", place)?;
             for ty in types.iter().flatten() {

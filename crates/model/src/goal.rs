@@ -74,6 +74,14 @@ impl GoalError {
 }
 
 impl Goal {
+    /// The goal with each atom under the name that these predicates have for it: `at(a,b)` is `at/2(a,b)` where they tell
+    /// `at` apart by the number of arguments.
+    #[must_use]
+    pub fn named_as_in(&self, predicates: &ArgumentTypes) -> Self {
+        let named = |atoms: &[GroundAtom]| atoms.iter().map(|atom| atom.named_as_in(predicates)).collect();
+        Self { required: named(&self.required), forbidden: named(&self.forbidden) }
+    }
+
     /// Checks that every atom is over known predicates with as many arguments as they take, and over objects of the
     /// state.
     ///
@@ -117,11 +125,11 @@ impl Goal {
 }
 
 /// A predicate that is made from what a snapshot calls so: the relation `holding` gives `holding_holds`, the attribute
-/// `cut` gives `cut_Fresh`. One with as many arguments, if there is one.
+/// `cut` gives `cut_Fresh`; or that is told apart from others of its name, as `at/2`. One with as many arguments, if there is one.
 fn made_from<'a>(atom: &GroundAtom, predicates: &'a ArgumentTypes) -> Option<&'a Symbol> {
     let is_made_from = |name: &Symbol| {
         let rest = name.as_str().strip_prefix(atom.predicate.as_str());
-        rest.is_some_and(|rest| rest.starts_with('_'))
+        rest.is_some_and(|rest| rest.starts_with(['_', '/']))
     };
     let made = predicates.iter().filter(|(name, _)| is_made_from(name));
     made.min_by_key(|(_, types)| types.len() != atom.arity()).map(|(name, _)| name)

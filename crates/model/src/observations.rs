@@ -126,8 +126,9 @@ pub enum Unexplained {
 pub struct Observations {
     /// The number of transitions seen, of any kind.
     pub transitions: u64,
-    /// Every predicate met, with the types of the objects that were met as each of its arguments.
-    pub predicates: BTreeMap<Symbol, Vec<BTreeSet<Symbol>>>,
+    /// Every predicate met, by its name and how many arguments it takes, with the types of the objects that were met as
+    /// each of them.
+    pub predicates: BTreeMap<(Symbol, usize), Vec<BTreeSet<Symbol>>>,
     /// Transitions that changed something, by action and lifted effect.
     pub clusters: BTreeMap<ClusterKey, Cluster>,
     /// Failures: transitions that were not executed, or changed nothing.
@@ -171,20 +172,22 @@ impl Observations {
 
     /// Adds an atom that was met: its predicate, and the types of its objects as far as they are named.
     pub fn add_predicate<'a>(&mut self, predicate: &Symbol, types: impl IntoIterator<Item = Option<&'a Symbol>>) {
-        if !self.predicates.contains_key(predicate) {
-            self.predicates.insert(predicate.clone(), Vec::new());
-        }
-        let Some(known) = self.predicates.get_mut(predicate) else { return };
-        for (position, ty) in types.into_iter().enumerate() {
-            if position == known.len() {
-                known.push(BTreeSet::new());
-            }
+        let types: Vec<Option<&Symbol>> = types.into_iter().collect();
+        let none = || vec![BTreeSet::new(); types.len()];
+        let known = self.predicates.entry((predicate.clone(), types.len())).or_insert_with(none);
+        for (known, ty) in known.iter_mut().zip(types) {
             if let Some(ty) = ty
-                && !known[position].contains(ty)
+                && !known.contains(ty)
             {
-                known[position].insert(ty.clone());
+                known.insert(ty.clone());
             }
         }
+    }
+
+    /// The names that were met with several numbers of arguments.
+    pub fn names_of_several_arities(&self) -> BTreeSet<Symbol> {
+        let names: Vec<&Symbol> = self.predicates.keys().map(|(name, _)| name).collect();
+        names.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| pair[0].clone()).collect()
     }
 
     /// Adds a transition that nothing explains.
@@ -209,7 +212,7 @@ impl Observations {
         self.transitions += other.transitions;
         for (predicate, types) in &other.predicates {
             let known = self.predicates.entry(predicate.clone()).or_default();
-            known.resize(known.len().max(types.len()), BTreeSet::new());
+            known.resize(types.len(), BTreeSet::new());
             known.iter_mut().zip(types).for_each(|(known, types)| known.extend(types.iter().cloned()));
         }
         for (key, cluster) in &other.clusters {

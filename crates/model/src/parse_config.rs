@@ -13,4 +13,7 @@ pub struct ParseConfig {
     /// Attributes and relations that give no atoms: `name`, or `type.name` for one type and those below it.
     #[serde(default)]
     pub ignore: BTreeSet<Symbol>,
+    /// Names that were met with several numbers of arguments: the model tells these predicates apart by it, as `name/2`.
+    #[serde(default, skip_serializing_if = "BTreeSet::is_empty")]
+    pub by_arity: BTreeSet<Symbol>,
 }

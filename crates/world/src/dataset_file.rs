@@ -177,10 +177,15 @@ mod tests {
 
     #[test]
     fn a_predicate_means_the_same_in_all_files() {
-        let files = [("a.trajectory", "((:init (free a b)))"), ("b.jsonl", TRACE)];
+        let lid = |attribute: &str| {
+            let entity = format!("{{\"id\":\"a\",\"type\":\"block\",\"attributes\":{{{attribute}}}}}");
+            format!("{{\"format\":\"trace/1\"}}\n{{\"state\":{{\"entities\":[{entity}]}}}}\n")
+        };
+        let (word, truth) = (lid("\"lid\":\"open\""), lid("\"lid_open\":true"));
         assert_eq!(
-            read(&files, &[""]).expect_err("two meanings"),
-            "b.jsonl:2: the predicate `free` is used with 2 and with 1 arguments"
+            read(&[("a.jsonl", &word), ("b.jsonl", &truth)], &[""]).expect_err("two meanings"),
+            "b.jsonl:2: entity a: the predicate `lid_open` has two sources: a word of the attribute `lid` and the true or \
+             false attribute `lid_open`"
         );
     }
 

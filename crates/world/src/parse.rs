@@ -9,14 +9,17 @@
 //! | false, numbers, vectors, empty list | none                |
 //!
 //! Parsing is a function of the snapshot, the hierarchy and the configuration. A [`Parser`] also remembers what each
-//! predicate name came from, and refuses a second source of one name.
+//! predicate came from, and refuses a second source of one. Predicates of one name with different numbers of arguments are
+//! different ones; the states have them under one name, unless the configuration, or what is [known](Parser::knowing) of a
+//! model, tells them apart.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
 use thiserror::Error;
 use typelift_model::{
-    Atom, GroundAtom, Hierarchy, MOST_PARAMETERS, ParseConfig, State, Symbol, TypeId, Unknown, check_name,
+    ArgumentTypes, Atom, GroundAtom, Hierarchy, MOST_PARAMETERS, ParseConfig, State, Symbol, TypeId, Unknown,
+    check_name, name_with_arity, predicate_told_apart,
 };
 
 use crate::{Entity, Relation, Scene, Snapshot, Value};
@@ -52,16 +55,6 @@ pub enum ParseErrorKind {
         first: String,
         /// The other.
         second: String,
-    },
-    /// A predicate with two numbers of arguments.
-    #[error("the predicate `{predicate}` is used with {first} and with {second} arguments")]
-    TwoArities {
-        /// The predicate.
-        predicate: Symbol,
-        /// The number met first.
-        first: usize,
-        /// The other.
-        second: usize,
     },
     /// A predicate with more arguments than one may have.
     #[error("the predicate `{predicate}` is used with {arity} arguments, and may have {MOST_PARAMETERS}")]
@@ -122,7 +115,6 @@ enum SourceKind {
 struct PredicateSource {
     kind: SourceKind,
     name: Symbol,
-    arity: usize,
 }
 
 impl PredicateSource {
@@ -142,7 +134,10 @@ impl PredicateSource {
 pub struct Parser {
     hierarchy: Hierarchy,
     config: ParseConfig,
-    sources: BTreeMap<Symbol, PredicateSource>,
+    /// The predicates of the model that the states are for, with their numbers of arguments.
+    known: BTreeMap<Symbol, usize>,
+    /// Where each predicate met, of this name and so many arguments, comes from.
+    sources: BTreeMap<(Symbol, usize), PredicateSource>,
     /// Rules of `config.ignore` that matched something.
     matched: BTreeSet<Symbol>,
 }
@@ -150,7 +145,16 @@ pub struct Parser {
 impl Parser {
     /// A parser that has seen nothing yet.
     pub fn new(hierarchy: Hierarchy, config: ParseConfig) -> Self {
-        Self { hierarchy, config, sources: BTreeMap::new(), matched: BTreeSet::new() }
+        let (known, sources, matched) = (BTreeMap::new(), BTreeMap::new(), BTreeSet::new());
+        Self { hierarchy, config, known, sources, matched }
+    }
+
+    /// The same for states that a model of these predicates is to be used in: a predicate that has the name of one of them,
+    /// and another number of arguments, is none of them, and is called `name/2`.
+    #[must_use]
+    pub fn knowing(self, predicates: &ArgumentTypes) -> Self {
+        let known = predicates.iter().map(|(name, types)| (name.clone(), types.len())).collect();
+        Self { known, ..self }
     }
 
     /// The hierarchy that its states refer to.
@@ -163,9 +167,10 @@ impl Parser {
         &self.config
     }
 
-    /// The attribute or relation that each predicate met so far comes from; of a predicate of symbolic states, itself.
+    /// The attribute or relation that each predicate met so far comes from; of a predicate of symbolic states, itself. Of
+    /// several predicates of one name, that of the one with the most arguments.
     pub fn attributes(&self) -> BTreeMap<Symbol, Symbol> {
-        self.sources.iter().map(|(predicate, source)| (predicate.clone(), source.name.clone())).collect()
+        self.sources.iter().map(|((predicate, _), source)| (predicate.clone(), source.name.clone())).collect()
     }
 
     /// What was to be ignored and was never met.
@@ -201,40 +206,39 @@ impl Parser {
             self.add_object(&mut state, name, ty)?;
         }
         for atom in atoms {
-            self.note_symbolic(&state, atom, atom.args.iter())?;
+            state.atoms.insert(self.symbolic(&state, atom, atom.args.iter())?);
         }
-        match &unknown {
+        state.unknown = match unknown {
             Unknown::Matching(patterns) => {
-                for pattern in patterns {
-                    self.note_symbolic(&state, pattern, pattern.names())?;
-                    if let Some(both) = atoms.iter().find(|atom| pattern.is_of(atom)) {
-                        return Err(ParseError { entity: None, kind: ParseErrorKind::TrueAndUnknown(both.clone()) });
-                    }
-                }
+                let named = patterns.iter().map(|pattern| self.symbolic(&state, pattern, pattern.names()));
+                Unknown::Matching(named.collect::<Result<_, _>>()?)
             }
             Unknown::AllBut(known) => {
-                for atom in known {
-                    self.note_symbolic(&state, atom, atom.args.iter())?;
-                }
+                let named = known.iter().map(|atom| self.symbolic(&state, atom, atom.args.iter()));
+                Unknown::AllBut(named.collect::<Result<_, _>>()?)
             }
+        };
+        if let Unknown::Matching(patterns) = &state.unknown
+            && let Some(both) = patterns.iter().find_map(|p| state.atoms.iter().find(|atom| p.is_of(atom)))
+        {
+            return Err(ParseError { entity: None, kind: ParseErrorKind::TrueAndUnknown(both.clone()) });
         }
-        state.atoms = atoms.clone();
-        state.unknown = unknown;
         Ok(state)
     }
 
-    /// Notes the predicate of an atom, or a pattern, of a symbolic state, which is over these objects.
-    fn note_symbolic<'a, T: fmt::Display>(
+    /// An atom, or a pattern, of a symbolic state, which is over these objects, under the name that its predicate gets.
+    fn symbolic<'a, T: Clone + fmt::Display>(
         &mut self,
         state: &State,
         atom: &Atom<T>,
         mut objects: impl Iterator<Item = &'a Symbol>,
-    ) -> Result<(), ParseError> {
+    ) -> Result<Atom<T>, ParseError> {
         if let Some(target) = objects.find(|name| !state.objects.contains_key(*name)) {
             let kind = ParseErrorKind::UnknownEntity { what: atom.to_string(), target: target.clone() };
             return Err(ParseError { entity: None, kind });
         }
-        self.note(None, SourceKind::Symbolic, &atom.predicate, &atom.predicate, atom.arity())
+        let predicate = self.note(None, SourceKind::Symbolic, &atom.predicate, &atom.predicate, atom.arity())?;
+        Ok(Atom { predicate, args: atom.args.clone() })
     }
 
     fn parse_snapshot(&mut self, snapshot: &Snapshot) -> Result<State, ParseError> {
@@ -300,7 +304,7 @@ impl Parser {
             Value::Text(word) => (SourceKind::WordAttribute, Symbol::from(format!("{name}_{word}"))),
             Value::Bool(false) | Value::Number(_) | Value::Vector(_) => return Ok(()),
         };
-        self.note(Some(entity), kind, name, &predicate, 1)?;
+        let predicate = self.note(Some(entity), kind, name, &predicate, 1)?;
         state.atoms.insert(GroundAtom { predicate, args: vec![entity.id.clone()] });
         Ok(())
     }
@@ -314,12 +318,12 @@ impl Parser {
     ) -> Result<(), ParseError> {
         if *relation == Relation::One(None) {
             let predicate = Symbol::from(format!("{name}_None"));
-            self.note(Some(entity), SourceKind::EmptyRelation, name, &predicate, 1)?;
+            let predicate = self.note(Some(entity), SourceKind::EmptyRelation, name, &predicate, 1)?;
             state.atoms.insert(GroundAtom { predicate, args: vec![entity.id.clone()] });
         }
         for target in relation.targets() {
             let predicate = Symbol::from(format!("{name}_holds"));
-            self.note(Some(entity), SourceKind::Relation, name, &predicate, 2)?;
+            let predicate = self.note(Some(entity), SourceKind::Relation, name, &predicate, 2)?;
             if !state.objects.contains_key(target) {
                 let kind =
                     ParseErrorKind::UnknownEntity { what: format!("the relation `{name}`"), target: target.clone() };
@@ -330,7 +334,19 @@ impl Parser {
         Ok(())
     }
 
-    /// Remembers where a predicate's name came from, and refuses a second source.
+    /// The name that a predicate gets in the states.
+    fn named(&self, predicate: &Symbol, arity: usize) -> Symbol {
+        if self.known.get(predicate) == Some(&arity) {
+            return predicate.clone();
+        }
+        let name = predicate_told_apart(&self.config.by_arity, predicate, arity);
+        match self.known.get(&name) {
+            Some(&of_model) if of_model != arity => name_with_arity(&name, arity),
+            _ => name,
+        }
+    }
+
+    /// Remembers where a predicate came from, and refuses a second source. Gives the name that it gets in the states.
     fn note(
         &mut self,
         entity: Option<&Entity>,
@@ -338,31 +354,28 @@ impl Parser {
         name: &Symbol,
         predicate: &Symbol,
         arity: usize,
-    ) -> Result<(), ParseError> {
+    ) -> Result<Symbol, ParseError> {
         let error = |kind| ParseError { entity: entity.map(|e| e.id.clone()), kind };
-        let Some(known) = self.sources.get(predicate) else {
+        let named = self.named(predicate, arity);
+        let Some(known) = self.sources.get(&(named.clone(), arity)) else {
             check_name(predicate.as_str()).map_err(|e| error(ParseErrorKind::Name(e.to_string())))?;
             // A model with such a predicate could not be read again.
             if arity > MOST_PARAMETERS {
                 return Err(error(ParseErrorKind::TooManyArguments { predicate: predicate.clone(), arity }));
             }
-            self.sources.insert(predicate.clone(), PredicateSource { kind, name: name.clone(), arity });
-            return Ok(());
+            self.sources.insert((named.clone(), arity), PredicateSource { kind, name: name.clone() });
+            return Ok(named);
         };
         let symbolic = kind == SourceKind::Symbolic || known.kind == SourceKind::Symbolic;
-        if symbolic && known.arity != arity {
-            let (predicate, first) = (predicate.clone(), known.arity);
-            return Err(error(ParseErrorKind::TwoArities { predicate, first, second: arity }));
-        }
         if !symbolic && (known.kind, &known.name) != (kind, name) {
-            let second = PredicateSource { kind, name: name.clone(), arity };
+            let second = PredicateSource { kind, name: name.clone() };
             return Err(error(ParseErrorKind::TwoSources {
                 predicate: predicate.clone(),
                 first: known.describe(),
                 second: second.describe(),
             }));
         }
-        Ok(())
+        Ok(named)
     }
 }
 
@@ -419,10 +432,44 @@ mod tests {
             ("", r#""holding(a,q)""#, "holding(a,q) mentions `q`, which is not among the entities"),
             ("", r#""holding(b,*)""#, "holding(b,*) mentions `b`, which is not among the entities"),
             (r#""clean(p)""#, r#""clean(p)""#, "clean(p) is listed both as true and as unknown"),
-            (r#""clean(p)""#, r#""clean(*,*)""#, "the predicate `clean` is used with 1 and with 2 arguments"),
         ] {
             assert_eq!(symbolic(atoms, unknown).expect_err(message), message);
         }
+    }
+
+    #[test]
+    fn predicates_of_one_name_are_told_apart_where_the_model_does() {
+        let text =
+            r#"{"objects":{"a":"agent","p":"plate"},"atoms":["at(a)","at(a,p)","on/2(p,a)"],"unknown":["at(p,*)"]}"#;
+        let names = |mut parser: Parser| {
+            let state = parser.parse(&scene(text)).expect("a state");
+            let unknown = GroundAtom::parse("at/2(p,p)").expect("an atom");
+            let atoms: Vec<String> = state.atoms.iter().map(ToString::to_string).collect();
+            (atoms.join(" "), state.is_unknown(&unknown))
+        };
+        assert_eq!(names(parser()), ("at(a) at(a,p) on(p,a)".to_owned(), false), "as observed");
+        let by_arity = BTreeSet::from([Symbol::new("at")]);
+        let split = Parser { config: ParseConfig { by_arity, ..ParseConfig::default() }, ..parser() };
+        assert_eq!(names(split), ("at/1(a) at/2(a,p) on(p,a)".to_owned(), true));
+        let object = parser().hierarchy().root();
+        let of_model = |name: &str, arity| ArgumentTypes::from([(Symbol::new(name), vec![object; arity])]);
+        let one = parser().knowing(&of_model("at", 1));
+        assert_eq!(names(one), ("at(a) at/2(a,p) on(p,a)".to_owned(), true), "only at(a) is the model's");
+        let literal = parser().knowing(&of_model("on/2", 2));
+        assert_eq!(names(literal).0, "at(a) at(a,p) on/2(p,a)", "a domain may have such a name");
+    }
+
+    #[test]
+    fn attributes_and_relations_of_one_name_are_told_apart_by_their_arguments() {
+        let state = parser().parse(&scene(
+            r#"{"entities":[{"id":"a","type":"agent","attributes":{"on_holds":true},"relations":{"on":"a"}}]}"#,
+        ));
+        let atoms: Vec<String> = state.expect("a state").atoms.iter().map(ToString::to_string).collect();
+        assert_eq!(atoms, ["on_holds(a)", "on_holds(a,a)"]);
+        let twice = parser().parse(&scene(
+            r#"{"entities":[{"id":"a","type":"agent","attributes":{"on_None":true},"relations":{"on":null}}]}"#,
+        ));
+        assert!(matches!(twice.expect_err("one argument each").kind, ParseErrorKind::TwoSources { .. }));
     }
 
     #[test]

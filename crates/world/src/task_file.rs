@@ -118,8 +118,9 @@ impl TaskFile {
     pub fn task(&self, parser: &mut Parser, predicates: &ArgumentTypes) -> Result<Task, TaskError> {
         let scene = self.state.as_ref().ok_or(TaskError::NoState)?;
         let init = parser.parse(scene).map_err(TaskError::State)?;
-        self.goal.check(&init, predicates)?;
-        Ok(Task::new(init, self.goal.clone()))
+        let goal = self.goal.named_as_in(predicates);
+        goal.check(&init, predicates)?;
+        Ok(Task::new(init, goal))
     }
 
     /// The task as JSON text, ending in a line feed.

@@ -93,9 +93,9 @@ pub(crate) fn trajectory_from(
 
 fn offending_span(error: &ParseError, state: &TrajectoryState) -> Option<Span> {
     match &error.kind {
-        ParseErrorKind::TwoArities { predicate, second, .. } => {
+        ParseErrorKind::TooManyArguments { predicate, arity } => {
             let mut listed = state.atoms.iter().chain(&state.negated);
-            let found = listed.find(|(atom, _)| atom.predicate == *predicate && atom.arity() == *second);
+            let found = listed.find(|(atom, _)| atom.predicate == *predicate && atom.arity() == *arity);
             found.map(|(_, span)| *span)
         }
         _ => None,
@@ -212,8 +212,12 @@ mod tests {
         let unknown = read("(:objects a - blocks)", "((:init (p a)))").expect_err("unknown");
         assert_eq!(unknown.to_string(), "a.trajectory:1:9: object a: unknown type `blocks`");
         assert_eq!(unknown.hint.as_deref(), Some("Did you mean `Block`? Add it to the hierarchy."));
-        let arities = read("(:objects a - block)", "((:init (p a)\n (p)))").expect_err("arities");
-        assert_eq!(arities.to_string(), "a.trajectory:1:9: the predicate `p` is used with 0 and with 1 arguments");
+        let large = format!("((:init (p a)\n (p{})))", " a".repeat(257));
+        let large = read("(:objects a - block)", &large).expect_err("too many arguments");
+        assert_eq!(
+            large.to_string(),
+            "a.trajectory:2:2: the predicate `p` is used with 257 arguments, and may have 256"
+        );
         let malformed = read("(:objects a - block)", "((:init (p a))").expect_err("malformed");
         assert_eq!(malformed.to_string(), "a.trajectory:1:1: this `(` is never closed");
     }

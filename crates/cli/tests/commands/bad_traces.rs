@@ -102,7 +102,6 @@ fn what_is_impossible() {
     let symbolic = |atoms: &str| format!("{{\"state\":{{\"objects\":{{\"a\":\"box\"}},\"atoms\":[{atoms}]}}}}");
     case("an atom that is none", &[HEADER, &symbolic(r#""open(a""#)]);
     case("an atom over nothing", &[HEADER, &symbolic(r#""open(b)""#)]);
-    case("a predicate with two arities", &[HEADER, &symbolic(r#""open(a)","open(a,a)""#)]);
     case("entities and objects", &[HEADER, r#"{"state":{"entities":[],"objects":{}}}"#]);
     case(
         "names that PDDL does not tell apart",

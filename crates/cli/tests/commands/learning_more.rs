@@ -84,14 +84,11 @@ fn what_does_not_add_up_is_refused() {
     folder.write("old.json", include_str!("../../../../fuzz/seeds/model/learned.json"));
     let state = r#"{"state":{"objects":{"a":"arm"},"atoms":["free(a)"]}}"#;
     folder.write("one.jsonl", format!("{{\"format\":\"trace/1\"}}\n{state}\n"));
-    let state = r#"{"state":{"objects":{"a":"agent"},"atoms":["holding_holds(a)"]}}"#;
-    folder.write("two.jsonl", format!("{{\"format\":\"trace/1\"}}\n{state}\n"));
     for (title, command) in [
         ("compact, and what it has already", format!("learn --into compact.json K/demos/{}", demos[5])),
         ("compact, and something is to go", format!("learn --into compact.json --forget {}", demos[5])),
         ("other types", "learn --into part.json K/demos --types types.pddl".to_owned()),
         ("something else is ignored", "learn --into part.json K/demos --ignore free".to_owned()),
-        ("a predicate of another arity", "learn --into part.json two.jsonl".to_owned()),
         ("what it was learned from is unknown", "learn --into old.json --forget a.jsonl".to_owned()),
         ("nor can anything be added to it", "learn --into old.json one.jsonl".to_owned()),
         ("a domain", "learn --into K/types.pddl K/demos".to_owned()),

@@ -1,6 +1,7 @@
 //! The program as its users meet it: whole commands, with their exit codes, what they print, what they leave behind.
 
 mod acting;
+mod arities;
 mod bad_models;
 mod bad_tasks;
 mod bad_traces;

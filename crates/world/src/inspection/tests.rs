@@ -80,7 +80,7 @@ fn the_first_difference_is_told_from_chance_unrest_and_flicker() {
     assert_eq!(shown(&[on, on, on, off]), [flicker]);
     // What flickers is not told again as something else.
     assert_eq!(shown(&[on, off, on, off, on, off, on]), [flicker]);
-    let ignoring = ParseConfig { ignore: BTreeSet::from([Symbol::new("on")]) };
+    let ignoring = ParseConfig { ignore: BTreeSet::from([Symbol::new("on")]), ..ParseConfig::default() };
     let options = InspectOptions { parse: ignoring, ..InspectOptions::default() };
     assert_eq!(findings(Scripted::showing(&[on, off, on, off]), &options), Vec::<String>::new());
 }
@@ -180,7 +180,7 @@ fn actions_that_cannot_be_learned_from() {
 #[test]
 fn what_is_asked_for_and_not_there_is_said() {
     let call = GroundCall { name: Symbol::new("start"), args: vec![Symbol::new("pump_2"), Symbol::new("tank_1")] };
-    let parse = ParseConfig { ignore: [Symbol::new("flwo"), Symbol::new("on")].into() };
+    let parse = ParseConfig { ignore: [Symbol::new("flwo"), Symbol::new("on")].into(), ..ParseConfig::default() };
     let scenes = [pump(r#""on":true,"flow":"High""#, "")];
     let world = Scripted { executes: false, ..Scripted::showing(&[&scenes[0]]) };
     let found = findings(world, &InspectOptions { parse, calls: vec![call], ..InspectOptions::default() });
