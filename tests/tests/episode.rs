@@ -122,6 +122,8 @@ fn the_state_is_believed_not_the_refusal() {
     let refused = it.answer(|id| Input::Refused { id, reason: "I think it went wrong".to_owned(), state });
     assert_eq!(refused, "done, solved");
     assert!(it.account().failures.is_empty());
+    let [seen] = &it.account().seen_done[..] else { panic!("{:?}", it.account().seen_done) };
+    assert_eq!((seen.reported, seen.reason.as_deref()), (Verdict::Refused, Some("I think it went wrong")));
 }
 
 #[test]
@@ -132,6 +134,9 @@ fn after_a_time_out_it_looks() {
     assert_eq!(it.timed_out(), "observe", "until something is seen");
     let cut_state = it.cut.clone();
     assert_eq!(it.observed(cut_state), "done, solved");
+    let seen: Vec<(u64, usize, Verdict)> =
+        it.account().seen_done.iter().map(|seen| (seen.proposal, seen.step, seen.reported)).collect();
+    assert_eq!(seen, [(1, 1, Verdict::TimedOut)]);
 
     // It had not: tried again, then blamed.
     let mut it = ByHand::cutting(Options::default());
@@ -146,6 +151,55 @@ fn after_a_time_out_it_looks() {
         [StepResult::Tried(Verdict::TimedOut)]
     );
     assert_eq!(it.account().actions, 2);
+    assert!(it.account().seen_done.is_empty());
+}
+
+#[test]
+fn where_it_was_stopped_is_in_the_account() {
+    let place = |it: &ByHand| {
+        let at = it.account().stopped_at.as_ref();
+        at.map(|at| (at.proposal, at.step, at.steps, at.call.to_string(), at.begun))
+    };
+    let step = |begun| Some((1, 1, 1, "cut(saw_1, b)".to_owned(), begun));
+    let mut approved = ByHand::cutting(Options::default());
+    approved.input(Input::Stop);
+    assert_eq!(place(&approved), step(true), "nobody knows what came of it");
+    let mut late = ByHand::cutting(Options::default());
+    late.timed_out();
+    late.input(Input::Stop);
+    assert_eq!(place(&late), step(true));
+    let mut asked = ByHand::cutting(Options::default());
+    asked.refused();
+    asked.refused();
+    asked.input(Input::Stop);
+    assert_eq!(place(&asked), Some((2, 1, 1, "cut(saw_2, b)".to_owned(), false)), "it was proposed only");
+    let mut resetting = ByHand::cutting(Options { restart: true, ..Options::default() });
+    resetting.refused();
+    resetting.input(Input::Stop);
+    assert_eq!(place(&resetting), None, "no step was under way");
+}
+
+#[test]
+fn where_nothing_is_left_it_is_said_what_is_excluded_and_why() {
+    let mut it = ByHand::cutting(Options { retries: Some(0), ..Options::default() });
+    it.refused();
+    assert_eq!(it.reject(1, Some(Objection::Broken { objects: Vec::new() })), "done, no_plan");
+    let avoided: Vec<(bool, &str, Vec<String>)> = it
+        .account()
+        .avoided
+        .iter()
+        .map(|avoided| {
+            let suspects = avoided.suspects.iter().map(ToString::to_string).collect();
+            (avoided.by_person, avoided.reason.as_str(), suspects)
+        })
+        .collect();
+    assert_eq!(
+        avoided,
+        [
+            (true, "cut(saw_2, b) was rejected: blunt", vec!["saw_2 from cut".to_owned()]),
+            (false, "cut(saw_1, b) jammed", vec!["saw_1 from cut".to_owned()]),
+        ]
+    );
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 use typelift_model::{GoalTypeMismatch, GroundCall, Plan, Stop, Symbol};
 use typelift_plan::Explanation;
+use typelift_world::Verdict;
 
 use crate::blame::Suspect;
 use crate::monitor::StepResult;
@@ -67,6 +68,51 @@ pub struct Failure {
     pub suspects: Vec<Suspect>,
 }
 
+/// A step that was seen to be done although the environment did not say so.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct SeenDone {
+    /// The proposal's number, from 1.
+    pub proposal: u64,
+    /// The step's number in it, from 1.
+    pub step: usize,
+    /// What the environment was told.
+    pub call: GroundCall,
+    /// What it reported: a refusal, or nothing in time.
+    pub reported: Verdict,
+    /// Its reason, if given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+}
+
+/// The step at which an episode was stopped.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct StoppedAt {
+    /// The proposal's number, from 1.
+    pub proposal: u64,
+    /// The step's number in it, from 1.
+    pub step: usize,
+    /// How many steps it has.
+    pub steps: usize,
+    /// What the environment was told, or was to be told next.
+    pub call: GroundCall,
+    /// Whether it was told already: then what came of it is not known.
+    pub begun: bool,
+}
+
+/// Something that is avoided since a step failed or was rejected, and stands in the way where there is no plan.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Avoided {
+    /// The failure, in words.
+    pub reason: String,
+    /// Whether a person said so.
+    pub by_person: bool,
+    /// What is excluded; if nothing, the very same action is not tried again.
+    pub suspects: Vec<Suspect>,
+}
+
 /// The account of an episode.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -82,6 +128,15 @@ pub struct Account {
     pub plan: Option<Plan>,
     /// What failed, in order.
     pub failures: Vec<Failure>,
+    /// Steps that were seen to be done although the environment did not say so, in order.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub seen_done: Vec<SeenDone>,
+    /// Where it was stopped, if a plan was proposed or being carried out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stopped_at: Option<StoppedAt>,
+    /// What was avoided where nothing was left to try: first what a person said.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub avoided: Vec<Avoided>,
     /// Nodes expanded by all searches.
     pub expansions: u64,
     /// Ground actions of the largest search.
@@ -102,6 +157,9 @@ impl Account {
             actions: 0,
             plan: None,
             failures: Vec::new(),
+            seen_done: Vec::new(),
+            stopped_at: None,
+            avoided: Vec::new(),
             expansions: 0,
             ground_actions: 0,
             resorts: LastResorts::default(),

@@ -8,7 +8,7 @@ use typelift_model::{State, Symbol};
 use typelift_plan::Ban;
 use typelift_world::{Expected, Record, TraceAction, Verdict};
 
-use crate::account::{Ending, Failure};
+use crate::account::{Ending, Failure, SeenDone};
 use crate::deed::{Deed, Failed};
 use crate::episode::{Episode, EpisodeError, Phase};
 use crate::event::{Event, Observer};
@@ -35,7 +35,7 @@ impl Episode {
             return self.again(observer);
         }
         if let Some(stop) = self.budget.stopped() {
-            return Ok(self.end(Ending::Stopped(stop), observer));
+            return Ok(self.stop(stop, false, observer));
         }
         Ok(self.command(Phase::AwaitingResult))
     }
@@ -71,10 +71,12 @@ impl Episode {
         if let Some(record) = self.record_of(&before, executed, reason.clone(), verdict) {
             observer.record(&record);
         }
-        self.report_step(result, reason.clone(), missed.clone(), &before, observer);
+        let reported = excuse.filter(|excuse| *excuse != verdict);
+        self.report_step(result, reason.clone(), reported, missed.clone(), &before, observer);
         if verdict != Verdict::AsExpected {
             return self.fail(result, reason, missed, &before, observer);
         }
+        self.note_seen_done(reported, reason);
         if let Some(deed) = deed {
             self.experience.succeeded(deed);
         }
@@ -83,6 +85,16 @@ impl Episode {
             execution.retries = 0;
         }
         self.advance(observer)
+    }
+
+    /// Notes that the next step was done, if the environment reported something else.
+    fn note_seen_done(&mut self, reported: Option<Verdict>, reason: Option<String>) {
+        if let (Some(reported), Some(execution)) = (reported, &self.execution)
+            && let Some(step) = execution.step()
+        {
+            let (proposal, step, call) = (self.account.proposals, execution.next_step + 1, step.call.clone());
+            self.account.seen_done.push(SeenDone { proposal, step, call, reported, reason });
+        }
     }
 
     /// The next step as experience keeps it.
@@ -112,6 +124,7 @@ impl Episode {
         &self,
         result: StepResult,
         reason: Option<String>,
+        reported: Option<Verdict>,
         missed: Vec<String>,
         before: &State,
         observer: &mut dyn Observer,
@@ -125,6 +138,7 @@ impl Episode {
             imagined: step.imagined.is_some(),
             result,
             reason,
+            reported,
             added: before.added(&self.state).cloned().collect(),
             deleted: before.deleted(&self.state).cloned().collect(),
             missed,
@@ -146,7 +160,7 @@ impl Episode {
             && execution.missing_precondition(&self.state).is_none()
         {
             if let Some(stop) = self.budget.stopped() {
-                return Ok(self.end(Ending::Stopped(stop), observer));
+                return Ok(self.stop(stop, false, observer));
             }
             execution.retries += 1;
             if let Some(step) = execution.step() {
@@ -182,9 +196,10 @@ impl Episode {
         }
         execution.next_step = at;
         let objection = objection_to(execution, objection, &self.state);
-        self.report_step(StepResult::Rejected, Some(reason.clone()), Vec::new(), &self.state, observer);
+        let reason = Some(reason).filter(|reason| !reason.is_empty());
+        self.report_step(StepResult::Rejected, reason.clone(), None, Vec::new(), &self.state, observer);
         let state = self.state.clone();
-        self.note_failure(StepResult::Rejected, Some(reason), Vec::new(), objection, &state, observer);
+        self.note_failure(StepResult::Rejected, reason, Vec::new(), objection, &state, observer);
         self.again(observer)
     }
 
@@ -200,7 +215,11 @@ impl Episode {
     ) {
         let (Some(execution), Some(deed)) = (&self.execution, self.deed(before)) else { return };
         let Some(step) = execution.step().cloned() else { return };
-        let why = format!("{} {}", step.call, reason.as_deref().unwrap_or(result.phrase()));
+        let why = match (result, &reason) {
+            (StepResult::Rejected, None) => format!("{} was rejected", step.call),
+            (StepResult::Rejected, Some(reason)) => format!("{} was rejected: {reason}", step.call),
+            (result, reason) => format!("{} {}", step.call, reason.as_deref().unwrap_or(result.phrase())),
+        };
         let is_actor = |object: &&Symbol| before.objects.get(*object).is_some_and(|ty| self.model.is_actor(*ty));
         let failed = Failed {
             deed,
@@ -210,6 +229,7 @@ impl Episode {
             in_goal: step.objects.iter().filter(|object| self.goal.mentions(object)).cloned().collect(),
             objection,
             useless: self.options.restart,
+            rejected: result == StepResult::Rejected,
             reason: why.clone(),
         };
         let failure = (self.account.proposals, execution.next_step + 1);

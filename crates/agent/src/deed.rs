@@ -85,6 +85,9 @@ pub struct Failed {
     pub objection: Option<Objection>,
     /// Whether an object that is to blame is useless for everything (the paper), or only for calls of this name.
     pub useless: bool,
+    /// Whether a person rejected it.
+    #[serde(default)]
+    pub rejected: bool,
     /// The failure, in words.
     pub reason: String,
 }

@@ -12,7 +12,7 @@ use thiserror::Error;
 use typelift_model::{ActionModel, Budget, Goal, GoalError, GroundAtom, Plan, State, Stop, Symbol};
 use typelift_world::Verdict;
 
-use crate::account::{Account, Ending};
+use crate::account::{Account, Ending, StoppedAt};
 use crate::event::{Event, Observer};
 use crate::execution::{Execution, Steps};
 use crate::experience::Experience;
@@ -155,7 +155,14 @@ impl Episode {
             return Ok(self.standing());
         }
         match (self.phase, &input) {
-            (_, Input::Stop) => return Ok(self.end(Ending::Stopped(Stop::Cancelled), observer)),
+            (_, Input::Stop) => {
+                let begun = matches!(self.phase, Phase::AwaitingResult | Phase::AwaitingLateState);
+                return Ok(match self.phase {
+                    Phase::AwaitingApproval => self.stop(Stop::Cancelled, false, observer),
+                    _ if begun => self.stop(Stop::Cancelled, true, observer),
+                    _ => self.end(Ending::Stopped(Stop::Cancelled), observer),
+                });
+            }
             (Phase::New, Input::Started) => return Ok(self.command(Phase::AwaitingReset)),
             // Nothing is believed before the start.
             (Phase::New, _) => return Ok(self.command(Phase::AwaitingReset)),
@@ -251,6 +258,15 @@ impl Episode {
     pub(crate) fn plan_taken(&self) -> Plan {
         let taken = |execution: &Execution| Plan { steps: execution.plan.steps[..execution.taken].to_vec() };
         self.execution.as_ref().map(taken).unwrap_or_default()
+    }
+
+    /// Ends at the next step of the plan, whether or not it was begun.
+    pub(crate) fn stop(&mut self, stop: Stop, begun: bool, observer: &mut dyn Observer) -> Command {
+        self.account.stopped_at = self.execution.as_ref().and_then(|execution| {
+            let (step, steps, call) = (execution.next_step + 1, execution.plan.len(), execution.step()?.call.clone());
+            Some(StoppedAt { proposal: self.account.proposals, step, steps, call, begun })
+        });
+        self.end(Ending::Stopped(stop), observer)
     }
 
     pub(crate) fn end(&mut self, ending: Ending, observer: &mut dyn Observer) -> Command {

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 use typelift_model::{GroundAtom, GroundCall, Plan, Stop, Symbol};
-use typelift_world::Record;
+use typelift_world::{Record, Verdict};
 
 use crate::blame::Suspect;
 use crate::monitor::StepResult;
@@ -64,6 +64,9 @@ pub enum Event<P = Plan> {
         /// The environment's or the person's reason, if given.
         #[serde(skip_serializing_if = "Option::is_none")]
         reason: Option<String>,
+        /// What the environment reported, where the states show that the step was done all the same.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        reported: Option<Verdict>,
         /// What it added.
         added: Vec<GroundAtom>,
         /// What it deleted.
@@ -121,8 +124,8 @@ impl<P: Clone> Event<P> {
                 Event::PlanningEnded { expansions, ground_actions, imagined, found }
             }
             Self::Proposed { proposal, plan } => Event::Proposed { proposal, plan: tell(&plan) },
-            Self::Stepped { proposal, step, call, imagined, result, reason, added, deleted, missed } => {
-                Event::Stepped { proposal, step, call, imagined, result, reason, added, deleted, missed }
+            Self::Stepped { proposal, step, call, imagined, result, reason, reported, added, deleted, missed } => {
+                Event::Stepped { proposal, step, call, imagined, result, reason, reported, added, deleted, missed }
             }
             Self::Retried { call } => Event::Retried { call },
             Self::Excluded { suspect, reason } => Event::Excluded { suspect, reason },

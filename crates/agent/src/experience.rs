@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 use typelift_model::Symbol;
 use typelift_plan::{Ban, Restrictions};
 
+use crate::account::Avoided;
 use crate::blame::{Condition, Suspect, suspects};
 use crate::deed::{Deed, Failed, Success};
 use crate::resort::CountedExclusions;
@@ -88,25 +89,13 @@ impl Experience {
         let mut restrictions = Restrictions::default();
         let mut conditions = Vec::new();
         for failed in &self.failures {
-            let is_here = failed.deed.instance == *instance;
-            if is_here {
-                restrictions.banned.extend(failed.banned(self.tasks).cloned());
-            }
-            let counts = failed.objection.is_some()
-                || match counted {
-                    CountedExclusions::All => true,
-                    CountedExclusions::OfThisTask => failed.task == self.tasks,
-                    CountedExclusions::None => false,
-                };
-            if !counts {
-                continue;
-            }
-            for suspect in suspects(failed, &self.successes) {
+            let (ban, suspects) = self.avoided_after(failed, instance, counted);
+            restrictions.banned.extend(ban.cloned());
+            for suspect in suspects {
                 match suspect {
-                    Suspect::Object(exclusion) if is_here => {
+                    Suspect::Object(exclusion) => {
                         restrictions.excluded.insert(exclusion);
                     }
-                    Suspect::Object(_) => {}
                     Suspect::Types(exclusion) => {
                         restrictions.types.insert(exclusion);
                     }
@@ -117,6 +106,39 @@ impl Experience {
         conditions.sort_unstable();
         conditions.dedup();
         (restrictions, conditions)
+    }
+
+    /// The same with its reasons, what a person said first; each once.
+    pub(crate) fn avoided_because(&self, instance: &Symbol, counted: CountedExclusions) -> Vec<Avoided> {
+        let mut found: Vec<Avoided> = Vec::new();
+        for failed in &self.failures {
+            let (ban, suspects) = self.avoided_after(failed, instance, counted);
+            let avoided = Avoided { reason: failed.reason.clone(), by_person: failed.rejected, suspects };
+            if (ban.is_some() || !avoided.suspects.is_empty()) && !found.contains(&avoided) {
+                found.push(avoided);
+            }
+        }
+        found.sort_by_key(|avoided| !avoided.by_person);
+        found
+    }
+
+    /// What one failure has avoided: the ground action, and what is to blame.
+    fn avoided_after<'f>(
+        &self,
+        failed: &'f Failed,
+        instance: &Symbol,
+        counted: CountedExclusions,
+    ) -> (Option<&'f Ban>, Vec<Suspect>) {
+        let is_here = failed.deed.instance == *instance;
+        let counts = failed.objection.is_some()
+            || match counted {
+                CountedExclusions::All => true,
+                CountedExclusions::OfThisTask => failed.task == self.tasks,
+                CountedExclusions::None => false,
+            };
+        let mut suspects = if counts { suspects(failed, &self.successes) } else { Vec::new() };
+        suspects.retain(|suspect| is_here || !suspect.belongs_to_instance());
+        (failed.banned(self.tasks).filter(|_| is_here), suspects)
     }
 }
 
@@ -156,6 +178,7 @@ mod tests {
             in_goal: in_goal.iter().map(|&object| object.into()).collect(),
             objection,
             useless: false,
+            rejected: false,
             reason: "it failed".to_owned(),
         }
     }

@@ -24,7 +24,7 @@ mod run;
 mod saved;
 mod turn;
 
-pub use account::{Account, Ending, Failure};
+pub use account::{Account, Avoided, Ending, Failure, SeenDone, StoppedAt};
 pub use blame::{Condition, Suspect, suspects};
 pub use deed::{Deed, Failed, Participant, Success};
 pub use episode::{Episode, EpisodeError};

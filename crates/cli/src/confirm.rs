@@ -97,17 +97,17 @@ fn read(answer: &str, plan: &Plan, model: &ActionModel, usual: usize) -> Result<
     };
     let (objection, because) = match reason {
         [] => (None, String::new()),
-        ["broken", names @ ..] => (Some(Objection::Broken { objects: objects(names)? }), ": broken".to_owned()),
-        ["kind", names @ ..] => (Some(Objection::WrongKind { objects: objects(names)? }), ": wrong kind".to_owned()),
+        ["broken", names @ ..] => (Some(Objection::Broken { objects: objects(names)? }), "broken".to_owned()),
+        ["kind", names @ ..] => (Some(Objection::WrongKind { objects: objects(names)? }), "wrong kind".to_owned()),
         ["while", atom @ ..] => {
             let atom = atom_of(&atom.concat(), model)?;
-            let because = format!(": not while {atom}");
+            let because = format!("not while {atom}");
             (Some(Objection::While { atom }), because)
         }
-        ["now"] => (Some(Objection::NotNow), ": not now".to_owned()),
+        ["now"] => (Some(Objection::NotNow), "not now".to_owned()),
         _ => return Err(not_understood(answer)),
     };
-    Ok(Confirmation::Reject { step, objection, reason: format!("rejected by a person{because}") })
+    Ok(Confirmation::Reject { step, objection, reason: because })
 }
 
 /// An atom over a predicate of the model, or why this is none.

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
-use typelift::agent::{Ending, Episode, EpisodeError, Experience, Options, RunError, run};
+use typelift::agent::{Command, Ending, Episode, EpisodeError, Experience, Input, Options, RunError, run};
 use typelift::model::{ActionModel, ParseConfig, Plan, State, Stop, Symbol, Task};
 use typelift::words::{AccountView, BrokenOffView, summary};
 use typelift::world::{FileError, Parser, Recorder, Reset, Scene, TaskFile, TraceHeader, World};
@@ -154,7 +154,7 @@ impl Run {
         Ok(if all_solved { Exit::Success } else { Exit::NotAchieved })
     }
 
-    /// Carries out a task and tells of it; how it ended, or nothing if it was interrupted.
+    /// Carries out a task and tells of it; how it ended, or nothing if it was interrupted and the environment ended.
     fn carry_out(&self, to_do: ToDo<'_>, session: &mut Session<'_>) -> Result<Option<Ending>, Failure> {
         let Session { clock, interrupt, quiet, parse, options, world, narrator, experience } = session;
         let ToDo { path, model, reset, task } = to_do;
@@ -173,7 +173,7 @@ impl Run {
         let header = TraceHeader { task: name.clone(), goal: task.goal };
         let mut recorder = self.record.as_ref().map(|folder| Recorder::new(folder, &name, header));
         let recorded = recorder.as_mut();
-        let ran = run(&mut episode, &mut **world, &reset, &mut parser, &mut confirm, narrator, recorded);
+        let mut ran = run(&mut episode, &mut **world, &reset, &mut parser, &mut confirm, narrator, recorded);
         for file in recorder.iter().flat_map(Recorder::files).filter(|_| !*quiet) {
             anstream::eprintln!("recorded {}", file.display());
         }
@@ -182,8 +182,8 @@ impl Run {
             Err(RunError::World(_)) => interrupt.explains_failure(),
             Err(_) => interrupt.is_set(),
         };
-        if was_interrupted {
-            return Ok(None);
+        if was_interrupted && let Ok(Command::Done(account)) = episode.step(Input::Stop, narrator) {
+            ran = Ok(*account);
         }
         if let (Some(error), Some(path)) = (narrator.events_error.take(), &self.events) {
             return Err(FileError::from_write(path, &error).into());
@@ -210,7 +210,7 @@ impl Run {
         {
             anstream::eprintln!("{HINT}hint{HINT:#}: {advice}");
         }
-        Ok(Some(account.ending))
+        Ok((!was_interrupted).then_some(account.ending))
     }
 
     fn read_tasks<'a>(&'a self, input: &ModelInput, quiet: bool) -> Result<Vec<ToDo<'a>>, Failure> {

@@ -59,7 +59,7 @@ impl fmt::Display for Obstacle {
             Self::Missing { object } => write!(f, "there is no {object}"),
             Self::Excluded { object } => write!(f, "{object} may not be used any more"),
             Self::NoObject { ty } => write!(f, "there is no {ty} that may be used"),
-            Self::Banned => f.write_str("what fits it was tried and failed"),
+            Self::Banned => f.write_str("what fits it may not be used any more"),
             Self::Precondition(atom) => write!(f, "it needs {atom}, which cannot be reached"),
             Self::Condition(atom) => write!(f, "it adds that only with {atom}, which cannot be reached"),
         }

@@ -1,7 +1,9 @@
 //! How an episode went.
 
 use serde::{Deserialize, Serialize};
-use typelift_agent::{Account, Ending, Episode, Failure, LastResorts, StepResult, Suspect};
+use typelift_agent::{
+    Account, Avoided, Ending, Episode, Failure, LastResorts, SeenDone, StepResult, StoppedAt, Suspect,
+};
 use typelift_model::{GroundCall, Plan, Symbol};
 use typelift_plan::Explanation;
 use typelift_world::Verdict;
@@ -46,6 +48,12 @@ pub struct AccountView {
     pub resorts: LastResorts,
     /// What failed, in order.
     pub failures: Vec<FailureView>,
+    /// Steps that were seen to be done although the environment did not say so, in order.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub seen_done: Vec<SeenDone>,
+    /// Where it was stopped, if a plan was proposed or being carried out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stopped_at: Option<StoppedAt>,
     /// What is avoided after the task.
     pub excluded: Vec<ExclusionView>,
 }
@@ -100,7 +108,7 @@ impl AccountView {
             task: task.to_owned(),
             solved: account.solved(),
             ending: account.ending.word().to_owned(),
-            why: why_not(&account.ending),
+            why: why_not(account),
             reasons: match &account.ending {
                 Ending::NoPlan(explanation) => Some(explanation.clone()),
                 _ => None,
@@ -115,6 +123,8 @@ impl AccountView {
             ground_actions: account.ground_actions,
             resorts: account.resorts.clone(),
             failures: account.failures.iter().map(FailureView::of).collect(),
+            seen_done: account.seen_done.clone(),
+            stopped_at: account.stopped_at.clone(),
             excluded: suspects
                 .into_iter()
                 .map(|(suspect, why)| ExclusionView { suspect, reason: why.reason, count: why.count })
@@ -162,16 +172,49 @@ impl BrokenOffView {
 }
 
 /// Why the goal was not seen to hold, if it was not.
-fn why_not(ending: &Ending) -> Option<String> {
-    Some(match ending {
+fn why_not(account: &Account) -> Option<String> {
+    Some(match &account.ending {
         Ending::Solved => return None,
-        Ending::NoPlan(explanation) => format!("nothing left to try: {explanation}"),
+        Ending::NoPlan(explanation) if account.avoided.is_empty() => format!("nothing left to try: {explanation}"),
+        Ending::NoPlan(explanation) => {
+            let avoided: Vec<String> = account.avoided.iter().map(avoided).collect();
+            format!("nothing left to try without what is excluded:\n  {}\n{explanation}", avoided.join("\n  "))
+        }
         Ending::Circular => "the plan that is left went as expected before, from this very state, and did not lead to \
                              the goal: something happens besides what the model says"
             .to_owned(),
         Ending::ProposalLimit(n) => format!("gave up after {}", count(*n, "proposal")),
-        Ending::Stopped(stop) => stop.to_string(),
+        Ending::Stopped(stop) => match &account.stopped_at {
+            None => stop.to_string(),
+            Some(StoppedAt { proposal, step, steps, call, begun }) => {
+                let place = format!("step {step} of {steps} of proposal {proposal}, {call}");
+                if *begun {
+                    format!("{stop} during {place}: what came of it was not observed")
+                } else {
+                    format!("{stop} before {place}")
+                }
+            }
+        },
     })
+}
+
+/// What is excluded after a failure, or by a person's word, and why.
+fn avoided(avoided: &Avoided) -> String {
+    let Avoided { reason, by_person, suspects } = avoided;
+    let by = if *by_person { "by your word: " } else { "" };
+    let suspects: Vec<String> = suspects.iter().map(ToString::to_string).collect();
+    match suspects.is_empty() {
+        true => format!("{by}the same action again, since {reason}"),
+        false => format!("{by}{}, since {reason}", suspects.join(", and ")),
+    }
+}
+
+/// What the environment reported of a step that was done all the same.
+pub(crate) fn although(reported: Verdict) -> String {
+    match reported {
+        Verdict::TimedOut => "as observed after it timed out".to_owned(),
+        reported => format!("although it was reported as: {}", StepResult::Tried(reported).phrase()),
+    }
 }
 
 /// The account of a task in lines: how it ended, what failed and was excluded, unless that was `told` as it happened, and
@@ -185,6 +228,12 @@ pub fn summary(task: &str, account: &Account, planning_ms: u128, told: bool) -> 
         lines.push(Text::new().plain("  ").with(Role::Aside, place).plain(what));
         lines.extend(failure.suspects.iter().map(|suspect| Text::new().plain(format!("    excluded {suspect}"))));
     }
+    for SeenDone { proposal, step, call, reported, reason } in account.seen_done.iter().filter(|_| !told) {
+        let place = format!("proposal {proposal}, step {step}");
+        let reason = reason.as_ref().map(|reason| format!(" ({reason})")).unwrap_or_default();
+        let what = format!("  {call}: done, {}{reason}", although(*reported));
+        lines.push(Text::new().plain("  ").with(Role::Aside, place).plain(what));
+    }
     if account.resorts.lifted() {
         lines.push(Text::new().plain("  exclusions were lifted, since nothing else was left"));
     }
@@ -192,7 +241,7 @@ pub fn summary(task: &str, account: &Account, planning_ms: u128, told: bool) -> 
         let what = "  actions were used although some of their effects held already, since nothing else was left";
         lines.push(Text::new().plain(what));
     }
-    let why = why_not(&account.ending);
+    let why = why_not(account);
     lines.extend(why.iter().flat_map(|why| why.lines()).map(|line| Text::new().plain(format!("  {line}"))));
     let notes = account.goal_type_mismatches.iter();
     lines.extend(notes.map(|note| Text::new().plain("  ").with(Role::Warning, "note").plain(format!(": {note}"))));

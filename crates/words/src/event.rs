@@ -3,7 +3,7 @@
 use typelift_agent::{Event, StepResult, WhyNoOther};
 use typelift_world::Verdict;
 
-use crate::account::outcome;
+use crate::account::{although, outcome};
 use crate::plan::imagined_part;
 use crate::text::{Role, Text, count};
 
@@ -17,17 +17,25 @@ pub fn line(event: &Event) -> Option<Text> {
             let (steps, imagined) = (count(plan.len() as u64, "step"), imagined_part(plan.imagined_steps() as u64));
             Text::new().plain(format!("  proposal {proposal}: {steps}{imagined}"))
         }
-        Event::Stepped { step, call, imagined, result, reason, missed, .. } => {
+        Event::Stepped { step, call, imagined, result, reason, reported, missed, .. } => {
             let mut line = Text::new().plain(format!("  {step:>3}  {call}"));
             if *imagined {
                 line = line.plain("  ").with(Role::Imagined, "imagined");
             }
             line = line.plain("  ");
             if *result == StepResult::Tried(Verdict::AsExpected) {
-                line.with(Role::Good, "ok")
+                line = line.with(Role::Good, "ok");
             } else {
-                let reason = reason.as_ref().map(|reason| format!(": {reason}"));
-                line.with(Role::Bad, outcome(*result, missed)).plain(reason.unwrap_or_default())
+                line = line.with(Role::Bad, outcome(*result, missed));
+            }
+            if let Some(reported) = reported {
+                line = line.plain(", ").with(Role::Warning, although(*reported));
+            }
+            match reason {
+                Some(reason) if *result != StepResult::Tried(Verdict::AsExpected) || reported.is_some() => {
+                    line.plain(format!(": {reason}"))
+                }
+                _ => line,
             }
         }
         Event::Retried { .. } => indented().with(Role::Aside, "again"),
@@ -61,6 +69,7 @@ mod tests {
             imagined: false,
             result: StepResult::Tried(verdict),
             reason: reason.map(str::to_owned),
+            reported: None,
             added: Vec::new(),
             deleted: Vec::new(),
             missed: vec!["empty(bin_1)".to_owned(), "not shut(bin_1)".to_owned()],
@@ -71,6 +80,14 @@ mod tests {
             "    2  unload(bin_1)  only part of the expected effect happened (missing: empty(bin_1), not shut(bin_1)): it jams"
         );
         assert_eq!(said(&stepped(Verdict::Nothing, None)), "    2  unload(bin_1)  nothing changed");
+        let mut late = stepped(Verdict::AsExpected, None);
+        let Event::Stepped { reported, .. } = &mut late else { unreachable!() };
+        *reported = Some(Verdict::TimedOut);
+        assert_eq!(said(&late), "    2  unload(bin_1)  ok, as observed after it timed out");
+        let mut contradicted = stepped(Verdict::AsExpected, Some("I lost it"));
+        let Event::Stepped { reported, .. } = &mut contradicted else { unreachable!() };
+        *reported = Some(Verdict::Refused);
+        assert_eq!(said(&contradicted), "    2  unload(bin_1)  ok, although it was reported as: refused: I lost it");
         let drifted = |missing: &str| said(&Event::Drifted { step: 2, missing: missing.to_owned() });
         assert_eq!(drifted("shut(bin_1)"), "       the world changed by itself: shut(bin_1) no longer holds");
         assert_eq!(drifted("not shut(bin_1)"), "       the world changed by itself: shut(bin_1) holds now");

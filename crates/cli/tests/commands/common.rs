@@ -155,7 +155,7 @@ impl Transcript {
 }
 
 /// The text with every time and every count of bytes as `N`: `12 ms`, `0.3 s`, `"seconds": 0.01`, `"bytes": 4096`.
-fn without_measurements(text: &str) -> String {
+pub(crate) fn without_measurements(text: &str) -> String {
     let mut kept = String::with_capacity(text.len());
     let mut rest = text;
     while let Some(start) = rest.find(|c: char| c.is_ascii_digit()) {

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::common::{Folder, program};
+use crate::common::{Folder, program, without_measurements};
 
 /// A name in the system that a program may wait to open.
 fn pipe(folder: &Folder, name: &str) {
@@ -90,6 +90,35 @@ fn an_interrupted_run_is_no_failure_of_its_environment() {
                 std::fs::remove_file(folder.path("here")).expect("it was there");
             }
         }
+    }
+}
+
+/// Whoever stops a run is told how far it had come.
+#[test]
+fn an_interrupted_run_accounts_for_what_was_done() {
+    let folder = Folder::kitchen();
+    // Requests: hello, reset, act.
+    environment(&folder, 3, "touch here; while :; do sleep 0.05; done");
+    for (options, said) in [
+        (
+            "-q",
+            "T1.1  not solved: 1 proposal, 0 actions executed, planned in N ms\n  \
+             stopped during step 1 of 5 of proposal 1, PICK(agent_1, counter_14, lettuce_1): \
+             what came of it was not observed\n",
+        ),
+        ("--json", "\"ending\":\"stopped\""),
+    ] {
+        let run = format!("run kitchen.json K/tasks/T1.1.json --env 'sh environment.sh' {options}");
+        let mut program = program(&run);
+        program.current_dir(folder.path("")).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let child = program.spawn().expect("the program starts");
+        wait_for(&folder.path("here"));
+        let killed = Command::new("kill").arg("-INT").arg(child.id().to_string()).status();
+        assert!(killed.expect("there is kill").success());
+        let ended = child.wait_with_output().expect("it ends");
+        let out = without_measurements(&String::from_utf8_lossy(&ended.stdout));
+        assert!(ended.status.code() == Some(130) && out.contains(said), "{options}: {ended:?}");
+        std::fs::remove_file(folder.path("here")).expect("it was there");
     }
 }
 
