@@ -5,8 +5,8 @@ use std::fmt::Write;
 
 use typelift::model::SplitMix64;
 
-/// Types as sets of the leaves `box`, `ball`, `place` itself and `dock`, with their text.
-const TYPES: [(u8, &str); 8] = [
+/// Types as sets of the leaves `box`, `ball`, `place` itself, `dock` and `phase`, with their text.
+const TYPES: [(u8, &str); 9] = [
     (0b0001, "box"),
     (0b0010, "ball"),
     (0b0011, "thing"),
@@ -14,12 +14,16 @@ const TYPES: [(u8, &str); 8] = [
     (0b1000, "dock"),
     (0b1101, "(either box place)"),
     (0b1010, "(either ball dock)"),
-    (0b1111, "object"),
+    (ANYTHING, "object"),
+    (PHASE_LEAF, "phase"),
 ];
+const ANYTHING: u8 = 0b1_1111;
+const PHASE_LEAF: u8 = 0b1_0000;
 const BOX: usize = 0;
 const THING: usize = 2;
 const PLACE: usize = 3;
 const BOX_OR_PLACE: usize = 5;
+const PHASE: usize = 8;
 
 /// The objects, the constants first, and of which leaf they are.
 const OBJECTS: [(&str, &str, u8); 6] = [
@@ -36,20 +40,26 @@ const LEAST_OBJECTS: usize = 4;
 /// Which of them are places.
 const PLACES: [usize; 3] = [0, 2, 3];
 
+/// What some tasks go through one after the other, so that their plans are long.
+const PHASES: [&str; 12] =
+    ["one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve"];
+
 /// A predicate and the types of its arguments, as places in [`TYPES`].
 type Predicate = (&'static str, &'static [usize]);
 
-const STATED: [Predicate; 7] = [
+const STATED: [Predicate; 9] = [
     ("at", &[THING, PLACE]),
     ("lit", &[]),
     ("clean", &[BOX_OR_PLACE]),
     ("done", &[THING]),
     ("open", &[PLACE]),
     ("packed", &[BOX]),
+    ("now", &[PHASE]),
     ("road", &[PLACE, PLACE]),
+    ("next", &[PHASE, PHASE]),
 ];
-/// No action changes the last of them.
-const CHANGED: usize = STATED.len() - 1;
+/// Actions change at random only the first of them.
+const CHANGED: usize = STATED.len() - 3;
 
 const DERIVED: [Predicate; 4] =
     [("linked", &[PLACE, PLACE]), ("ready", &[THING]), ("calm", &[]), ("near", &[THING, THING])];
@@ -59,6 +69,7 @@ const DERIVED: [Predicate; 4] =
 pub struct AdlTask {
     random: SplitMix64,
     objects: usize,
+    phases: &'static [&'static str],
     predicates: Vec<Predicate>,
     /// The variables in scope, with their types.
     scope: Vec<(String, u8)>,
@@ -71,13 +82,15 @@ impl AdlTask {
         let mut random = SplitMix64::new(seed);
         let objects = LEAST_OBJECTS + random.below(1 + OBJECTS.len() - LEAST_OBJECTS);
         let has_costs = random.below(2) == 0;
-        Self { random, objects, predicates: STATED.to_vec(), scope: Vec::new(), has_costs }
+        let phases = if random.below(4) == 0 { &PHASES[..] } else { &[] };
+        Self { random, objects, phases, predicates: STATED.to_vec(), scope: Vec::new(), has_costs }
     }
 
     /// The domain; to be written first, and once.
     pub fn domain(&mut self) -> String {
         let mut text =
-            "(define (domain generated)\n (:types thing place - object box ball - thing dock - place)\n".to_owned();
+            "(define (domain generated)\n (:types thing place phase - object box ball - thing dock - place)\n"
+                .to_owned();
         text.push_str(" (:constants hub - place crate - box)\n (:predicates");
         let derived = self.random.below(DERIVED.len() + 1);
         for (name, types) in STATED.iter().chain(&DERIVED[..derived]) {
@@ -92,13 +105,17 @@ impl AdlTask {
             let action = self.action(name);
             let _ = writeln!(text, " {action}");
         }
+        if !self.phases.is_empty() {
+            let _ = writeln!(text, " {}", self.pass());
+        }
         text + ")"
     }
 
     /// The problem with this goal. Its objects and initial state are the same each time.
     pub fn problem(&self, init: &str, goal: &str) -> String {
-        let objects: String =
-            OBJECTS[CONSTANTS..self.objects].iter().map(|(name, ty, _)| format!(" {name} - {ty}")).collect();
+        let objects = OBJECTS[CONSTANTS..self.objects].iter().map(|(name, ty, _)| format!(" {name} - {ty}"));
+        let phases = self.phases.iter().map(|name| format!(" {name} - phase"));
+        let objects: String = objects.chain(phases).collect();
         let metric = if self.has_costs { "(:metric minimize (total-cost))" } else { "" };
         format!(
             "(define (problem p) (:domain generated)\n (:objects{objects})\n (:init{init})\n (:goal {goal}) {metric})"
@@ -116,16 +133,21 @@ impl AdlTask {
         for (name, ..) in OBJECTS[..self.objects].iter().filter(|(_, _, leaf)| leaf & TYPES[THING].0 != 0) {
             let _ = write!(text, " (at {name} {})", place(self.random.below(PLACES.len())));
         }
+        for pair in self.phases.windows(2) {
+            let _ = write!(text, " (next {} {})", pair[0], pair[1]);
+        }
+        text.extend(self.phases.first().map(|first| format!(" (now {first})")));
         for _ in 0..self.random.below(8) {
-            let predicate = STATED[self.random.below(STATED.len())];
+            let predicate = STATED[self.random.below(CHANGED)];
             if let Some(atom) = self.atom_of(predicate) {
                 let _ = write!(text, " {atom}");
             }
         }
-        for (i, (name, ..)) in OBJECTS[..self.objects].iter().enumerate() {
+        let names = OBJECTS[..self.objects].iter().map(|(name, ..)| name).chain(self.phases);
+        for (i, name) in names.enumerate() {
             let _ = write!(text, " (= (toll {name}) {})", (i * 3 + 1) % 7);
         }
-        text + " (= (total-cost) 0)"
+        text + ["", " (= (total-cost) 0)", " (= (total-cost) 5)"][self.random.below(3)]
     }
 
     /// A formula, nested so deep at most.
@@ -165,8 +187,10 @@ impl AdlTask {
             .filter(|(at, (name, _))| !self.scope[at + 1..].iter().any(|(later, _)| later == name));
         let variables = visible.filter(|(_, (_, mask))| mask & !types == 0).map(|(_, (name, _))| format!("?{name}"));
         let objects = OBJECTS[..self.objects].iter().filter(|(_, _, leaf)| leaf & types != 0);
+        let phases = self.phases.iter().filter(|_| self.objects > CONSTANTS && types & PHASE_LEAF != 0);
+        let names = objects.map(|(name, ..)| name).chain(phases).map(|name| (*name).to_owned());
         // Variables are mentioned more often.
-        variables.flat_map(|name| vec![name; 4]).chain(objects.map(|(name, ..)| (*name).to_owned())).collect()
+        variables.flat_map(|name| vec![name; 4]).chain(names).collect()
     }
 
     fn term(&mut self, types: u8) -> Option<String> {
@@ -187,7 +211,7 @@ impl AdlTask {
     }
 
     fn equality(&mut self) -> String {
-        match (self.term(0b1111), self.term(0b1111)) {
+        match (self.term(ANYTHING), self.term(ANYTHING)) {
             (Some(a), Some(b)) => format!("(= {a} {b})"),
             _ => "(and)".to_owned(),
         }
@@ -240,6 +264,22 @@ impl AdlTask {
         format!("(:action {name} :parameters ({parameters})\n  :precondition {precondition}\n  :effect (and {effect}))")
     }
 
+    /// The action that goes on to the next phase, which may ask and do more.
+    fn pass(&mut self) -> String {
+        let objects = std::mem::replace(&mut self.objects, CONSTANTS);
+        self.scope = vec![("v0".to_owned(), PHASE_LEAF), ("v1".to_owned(), PHASE_LEAF)];
+        let depth = self.random.below(3);
+        let precondition = self.precondition(depth);
+        let more = if self.random.below(2) == 0 { self.effect(2) } else { String::new() };
+        let cost = if self.has_costs { self.cost() } else { String::new() };
+        self.scope.clear();
+        self.objects = objects;
+        format!(
+            "(:action pass :parameters (?v0 ?v1 - phase)\n  :precondition (and (now ?v0) (next ?v0 ?v1) {precondition})\n  \
+             :effect (and (not (now ?v0)) (now ?v1) {more} {cost}))"
+        )
+    }
+
     fn precondition(&mut self, depth: usize) -> String {
         match depth {
             0 => "(and)".to_owned(),
@@ -250,7 +290,7 @@ impl AdlTask {
     }
 
     fn cost(&mut self) -> String {
-        let term = self.term(0b1111);
+        let term = self.term(ANYTHING);
         match (self.random.below(3), term) {
             (0, Some(term)) => format!("(increase (total-cost) (toll {term}))"),
             (number, _) => format!("(increase (total-cost) {})", number * 2),

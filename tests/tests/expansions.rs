@@ -19,8 +19,8 @@ use typelift_tests::{kitchen_model, planning_task};
 fn for_the_first(strategy: Strategy) -> Budget {
     Budget::with_expansions(match strategy {
         Strategy::OrderedFirst | Strategy::OrderedLandmarks | Strategy::AStarLmCut | Strategy::AStarBlind => 400,
-        Strategy::LazyFf | Strategy::LazyLandmarks => 1_000,
-        Strategy::LamaPortfolio => 5_000,
+        Strategy::LazyFf | Strategy::LazyLandmarks | Strategy::Bfws => 1_000,
+        Strategy::LamaPortfolio => 6_000,
     })
 }
 

@@ -12,7 +12,7 @@ use crate::failure::Failure;
 /// Which planner plans.
 #[derive(Debug, Clone, clap::Args)]
 pub(crate) struct PlannerOption {
-    /// Search like this: ordered-first, ordered-landmarks, lama, lazy-ff, lazy-landmarks, or for an optimal plan
+    /// Search like this: ordered-first, ordered-landmarks, lama, lazy-ff, lazy-landmarks, bfws, or for an optimal plan
     /// astar-lmcut, astar-blind [default: ordered-first for learned models, lama for PDDL]
     #[arg(long, value_name = "SEARCH", conflicts_with = "planner")]
     search: Option<Strategy>,

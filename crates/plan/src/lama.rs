@@ -9,7 +9,9 @@ use crate::heuristic::{CostMeasure, Ff, Heuristic, LandmarkCount, Undominated};
 use crate::landmark::LandmarkGraph;
 use crate::poll::Poll;
 use crate::relaxation::{Negatives, Relaxation};
-use crate::search::{AStar, EAGER, Lazy, Member, Portfolio, Preference, Ranking, Restartable, Restarts, Search, Space};
+use crate::search::{
+    AStar, EAGER, Lazy, Member, Portfolio, Preference, Ranking, Restartable, Restarts, Search, Space, WidthFirst,
+};
 use crate::shuffle::Shuffler;
 
 /// With more goals than this ordered landmarks are left out.
@@ -62,6 +64,11 @@ impl LamaPortfolio {
         Lazy::new(Arc::clone(&self.space), self.ranking, heuristics, preference)
     }
 
+    /// Best-first width search.
+    pub(crate) fn width_first(&self) -> WidthFirst {
+        WidthFirst::new(Arc::clone(&self.space), self.relaxed.ff(), self.landmark_count())
+    }
+
     /// Whether the search with ordered landmarks has a part in it.
     pub(crate) fn takes_in_order(&self) -> bool {
         self.space.task.goal.len() <= MOST_GOALS_IN_ORDER
@@ -73,11 +80,13 @@ impl LamaPortfolio {
         Portfolio::new(in_order.into_iter().chain(self.lazy_members()).collect())
     }
 
-    /// LAMA's search with two kinds of preferred actions, and a restarting LAMA.
+    /// LAMA's search with two kinds of preferred actions, a restarting LAMA, and best-first width search.
     pub(crate) fn lazy_members(self) -> Vec<Member> {
         let (helpful, preferred) = (self.search(Preference::Helpful), self.search(Preference::Preferred));
+        let width = self.width_first();
         let restarts = Restarts::new(Box::new(self));
-        let searches: [Box<dyn Search>; 3] = [Box::new(helpful), Box::new(preferred), Box::new(restarts)];
+        let searches: [Box<dyn Search>; 4] =
+            [Box::new(helpful), Box::new(preferred), Box::new(restarts), Box::new(width)];
         searches.into_iter().map(|search| Member { search, weight: 1 }).collect()
     }
 }

@@ -152,9 +152,10 @@ fn begin(strategy: Strategy, stage: Stage, space: &Arc<Space>, budget: &Budget) 
             let count = LandmarkCount::new(graph, task, &relaxation);
             Box::new(Lazy::new(Arc::clone(space), ranking, vec![Box::new(count)], Preference::None))
         }
-        Strategy::OrderedFirst | Strategy::LamaPortfolio => {
+        Strategy::OrderedFirst | Strategy::LamaPortfolio | Strategy::Bfws => {
             let lama = LamaPortfolio::new(Arc::clone(space), ranking, &mut poll)?;
             match stage {
+                Stage::First if strategy == Strategy::Bfws => Box::new(lama.width_first()),
                 Stage::First => {
                     let in_order = lama.takes_in_order().then(|| in_order(space, budget)).transpose()?;
                     Box::new(lama.in_turn(in_order))

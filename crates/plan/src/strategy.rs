@@ -18,12 +18,15 @@ pub enum Strategy {
     OrderedLandmarks,
     /// A portfolio around LAMA's search. For a first plan several take turns: the paper's; lazy greedy search that
     /// alternates between FF's relaxed plans and landmark counting, with two kinds of preferred actions; and the same
-    /// begun anew again and again. Then, as in LAMA, weighted A* with decreasing weights (Richter and Westphal 2010).
+    /// begun anew again and again; best-first width search. Then, as in LAMA, weighted A* with decreasing weights
+    /// (Richter and Westphal 2010).
     LamaPortfolio,
     /// Lazy greedy search with FF's relaxed plans and preferred actions alone.
     LazyFf,
     /// Lazy greedy search with landmark counting alone.
     LazyLandmarks,
+    /// Best-first width search with landmark counting: what is new comes first.
+    Bfws,
     /// A* with LM-cut: an optimal plan.
     AStarLmCut,
     /// A* without an estimate, which is uniform-cost search: an optimal plan.
@@ -32,12 +35,13 @@ pub enum Strategy {
 
 impl Strategy {
     /// Every strategy.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::OrderedFirst,
         Self::OrderedLandmarks,
         Self::LamaPortfolio,
         Self::LazyFf,
         Self::LazyLandmarks,
+        Self::Bfws,
         Self::AStarLmCut,
         Self::AStarBlind,
     ];
@@ -50,6 +54,7 @@ impl Strategy {
             Self::LamaPortfolio => "lama",
             Self::LazyFf => "lazy-ff",
             Self::LazyLandmarks => "lazy-landmarks",
+            Self::Bfws => "bfws",
             Self::AStarLmCut => "astar-lmcut",
             Self::AStarBlind => "astar-blind",
         }

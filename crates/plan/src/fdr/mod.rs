@@ -179,6 +179,13 @@ impl Fdr {
         })
     }
 
+    /// The dense numbers of the facts that hold in the second of two states and not in the first, in order.
+    pub(crate) fn gained<'a>(&'a self, before: &'a Values, after: &'a Values) -> impl Iterator<Item = u32> + 'a {
+        let columns = before.iter().zip(after).zip(self.first.iter().zip(&self.domains));
+        let changed = columns.filter(|((before, after), (_, size))| before != after && **after + 1 < **size);
+        changed.map(|((_, after), (first, _))| first + after)
+    }
+
     /// Whether the goal holds.
     pub(crate) fn is_goal(&self, values: &Values) -> bool {
         self.goal.iter().all(|goal| goal.holds(values)) && !self.negative_goal.iter().any(|goal| goal.holds(values))

@@ -180,6 +180,14 @@ impl Ff {
 }
 
 impl Ff {
+    /// The facts that the last relaxed plan makes true, by their dense numbers.
+    pub(crate) fn achieved<'a>(&'a self, task: &'a Fdr) -> impl Iterator<Item = u32> + 'a {
+        let marks = self.seen_props.iter().zip(&self.supporters).zip(0..);
+        let made = marks.filter(|&((&seen, &supporter), _)| seen == self.now && supporter != NO_SUPPORTER);
+        let literals = made.filter_map(|(_, prop)| self.relaxation.literal(task, prop));
+        literals.filter(|&(_, wanted)| wanted).map(|(fact, _)| task.number(fact))
+    }
+
     /// The actions that achieve a proposition at once.
     fn add_helpful(&mut self, prop: Prop) {
         for &relaxed in self.relaxation.achievers.get(prop as usize) {

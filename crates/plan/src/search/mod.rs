@@ -5,10 +5,12 @@ mod astar;
 #[cfg(test)]
 mod endless;
 mod lazy;
+mod novelty;
 mod open_list;
 mod portfolio;
 mod restarts;
 mod space;
+mod width;
 
 use std::fmt::Debug;
 
@@ -17,6 +19,7 @@ pub(crate) use lazy::{Lazy, Preference, Priority, Ranking};
 pub(crate) use portfolio::{EAGER, Member, Portfolio};
 pub(crate) use restarts::{Restartable, Restarts};
 pub(crate) use space::Space;
+pub(crate) use width::WidthFirst;
 
 use typelift_model::{Budget, GroundAtom, Plan, Stop};
 
