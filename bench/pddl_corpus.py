@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Reads every PDDL file of two Python packages with Fast Downward's translator and with typelift, and compares.
+"""Reads every PDDL file, BDDL's included, of Python packages with Fast Downward's translator and with typelift, and compares.
 
-    pip install fast-downward-translate amlgym pddlgym
-    python bench/pddl_corpus.py amlgym pddlgym --typelift target/release/typelift
+    pip install fast-downward-translate amlgym pddlgym bddl virtualhome-eval unified-planning
+    python bench/pddl_corpus.py amlgym pddlgym bddl virtualhome_eval unified_planning --typelift target/release/typelift
 
 Prints a Markdown table; with --list, also each file that one of the two refuses, with the reasons. Exit code 1 if they
 disagree on a file. Writes no file.
@@ -28,8 +28,10 @@ def read_with_fast_downward(pair):
         return "there is no domain"
     sys.argv = ["translate", "domain", "problem"]
     sys.setrecursionlimit(100_000)
+    from fast_downward.translate import options
     from fast_downward.translate.pddl_parser import parsing_functions, pddl_file
 
+    options.set_options(["domain", "problem"])  # Some files are read only by an option's leave.
     try:
         with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
             if path == domain:

@@ -30,7 +30,7 @@ def named(text, key):
 
 def pairs(folder):
     """Each file with the domain it is to be read with: itself, if it is one."""
-    files = sorted(folder.rglob("*.pddl"))
+    files = sorted(folder.rglob("*.[bp]ddl"))
     texts = {path: text_of(path) for path in files}
     domains = [path for path in files if named(texts[path], "domain")]
     by_stem = collections.defaultdict(list)

@@ -40,7 +40,7 @@ pub(crate) fn problem_within(text: &str, domain: &Domain, declared_in: DeclaredI
         let error = definition.error("this problem has no `:init`");
         return Err(error.with_hint("Write `(:init)` if nothing holds initially."));
     };
-    let mut reader = InitReader { scope: Scope::new(&vocabulary), init: Init::default() };
+    let mut reader = InitReader { scope: Scope::of_problem(&vocabulary), init: Init::default() };
     for item in init.children().skip(1) {
         reader.add(item)?;
     }
@@ -161,7 +161,7 @@ fn read_goal(vocabulary: &Vocabulary, definition: &Definition<'_>) -> Result<For
     let mut goals = block.children().skip(1);
     match (goals.next(), goals.next()) {
         (Some(goal), None) if is_empty(goal) => Err(goal.error("the goal is empty").with_hint(HINT)),
-        (Some(goal), None) => Scope::new(vocabulary).formula(goal, 0),
+        (Some(goal), None) => Scope::of_problem(vocabulary).formula(goal, 0),
         (None, _) => Err(block.error("the goal is empty").with_hint(HINT)),
         (Some(_), Some(second)) => {
             Err(second.error("there is a second condition in this goal").with_hint("Join several with `(and …)`."))

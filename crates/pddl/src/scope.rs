@@ -12,6 +12,8 @@ pub(crate) struct Scope<'v> {
     pub(crate) vocabulary: &'v Vocabulary,
     /// The inner ones later.
     variables: Vec<Variable>,
+    /// Whether objects may stand anywhere, whatever their types.
+    takes_any_object: bool,
 }
 
 #[derive(Debug)]
@@ -20,23 +22,40 @@ struct Variable {
     types: Vec<TypeId>,
 }
 
-/// The types of a variable; or that of an object, and nothing below it.
+/// What the types of an argument say about where it may stand.
 #[derive(Debug, Clone, Copy)]
-struct Types<'a>(&'a [TypeId], bool);
+enum Types<'a> {
+    /// What a variable stands for may be of a type below these.
+    Variable(&'a [TypeId]),
+    /// An object is of its type, and of nothing below it.
+    Object(&'a [TypeId]),
+    /// It may stand anywhere.
+    Anywhere,
+}
 
-impl Types<'_> {
-    /// Whether it is of one of the types `wanted`; of a variable, whether what it stands for can be.
-    fn fit(self, wanted: &[TypeId], hierarchy: &Hierarchy) -> bool {
-        let Self(given, exact) = self;
-        let fits = |g, w| hierarchy.is_a(g, w) || !exact && hierarchy.is_a(w, g);
-        given.iter().any(|&g| wanted.iter().any(|&w| fits(g, w)))
+impl<'a> Types<'a> {
+    /// The types, if it is of none of those `wanted` and cannot be.
+    fn misfit(self, wanted: &[TypeId], hierarchy: &Hierarchy) -> Option<&'a [TypeId]> {
+        let (given, is_variable) = match self {
+            Self::Variable(given) => (given, true),
+            Self::Object(given) => (given, false),
+            Self::Anywhere => return None,
+        };
+        let fits = |g, w| hierarchy.is_a(g, w) || is_variable && hierarchy.is_a(w, g);
+        (!given.iter().any(|&g| wanted.iter().any(|&w| fits(g, w)))).then_some(given)
     }
 }
 
 impl<'v> Scope<'v> {
     /// Without variables.
     pub(crate) fn new(vocabulary: &'v Vocabulary) -> Self {
-        Self { vocabulary, variables: Vec::new() }
+        Self { vocabulary, variables: Vec::new(), takes_any_object: false }
+    }
+
+    /// Without variables, in a problem: what holds there, or is to hold, may be about objects of other types than are
+    /// declared for it, as for planners that do not look at types.
+    pub(crate) fn of_problem(vocabulary: &'v Vocabulary) -> Self {
+        Self { takes_any_object: true, ..Self::new(vocabulary) }
     }
 
     /// Binds the variables of a typed list, until as many [leave](Self::leave).
@@ -101,12 +120,12 @@ impl<'v> Scope<'v> {
         let mut args = Vec::with_capacity(declared.types.len());
         for part in parts {
             let (arg, types) = read(self, part)?;
-            match declared.types.get(args.len()) {
-                Some(wanted) if !types.fit(wanted, &self.vocabulary.hierarchy) => {
-                    return Err(self.misfit(known.kind, part, types.0, declared, wanted));
-                }
-                _ => args.push(arg),
+            if let Some(wanted) = declared.types.get(args.len())
+                && let Some(given) = types.misfit(wanted, &self.vocabulary.hierarchy)
+            {
+                return Err(self.misfit(known.kind, part, given, declared, wanted));
             }
+            args.push(arg);
             if args.len() > declared.types.len() {
                 break;
             }
@@ -156,7 +175,7 @@ impl<'v> Scope<'v> {
         };
         let name = lower(name);
         match self.variables.iter().rev().find(|variable| variable.name == *name) {
-            Some(variable) => Ok((PddlTerm::Variable(variable.name.clone()), Types(&variable.types, false))),
+            Some(variable) => Ok((PddlTerm::Variable(variable.name.clone()), Types::Variable(&variable.types))),
             None => {
                 let near = did_you_mean(&name, self.variables.iter().map(|variable| &variable.name));
                 let hint = near.map(|near| near.replacen('`', "`?", 1));
@@ -179,7 +198,8 @@ impl<'v> Scope<'v> {
         };
         let name = lower(name);
         match self.vocabulary.objects.get_key_value(&*name) {
-            Some((name, object)) => Ok((name.clone(), Types(&object.types, true))),
+            Some((name, _)) if self.takes_any_object => Ok((name.clone(), Types::Anywhere)),
+            Some((name, object)) => Ok((name.clone(), Types::Object(&object.types))),
             None if name.starts_with('?') => {
                 Err(part.error(format!("variable `{name}` stands where only objects may")))
             }

@@ -7,7 +7,7 @@ use serde::Serialize;
 use typelift::model::Symbol;
 use typelift::pddl::{
     Definition, DefinitionKind, Document, Domain, PddlError, Problem, Sexpr, Trajectory, compile_domain,
-    compile_problem, read_plan, read_problem, read_trajectory, required_by_domain, required_by_problem,
+    compile_problem, misfits, read_plan, read_problem, read_trajectory, required_by_domain, required_by_problem,
     undeclared_requirements,
 };
 use typelift::words::count;
@@ -39,6 +39,9 @@ struct Content {
     counts: Vec<(&'static str, u64)>,
     /// Requirements that are used but not declared.
     undeclared: Vec<&'static str>,
+    /// Atoms over objects of other types than their predicates declare.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    misfits: Vec<String>,
 }
 
 /// What is printed of a file with `--json`.
@@ -99,6 +102,12 @@ pub(super) fn check(files: &[PathBuf], json: bool, quiet: bool) -> Result<Exit, 
         match content {
             Ok(content) => {
                 writeln!(out, "{shown}: {}{}", name.unwrap_or_default(), summary(&content))?;
+                if let (Some(first), false) = (content.misfits.first(), quiet) {
+                    let several = count(content.misfits.len() as u64, "atom");
+                    anstream::eprintln!(
+                        "{WARNING}warning{WARNING:#}: {shown}: {several} not of the types that the predicate declares: {first}"
+                    );
+                }
                 if !content.undeclared.is_empty() && !quiet {
                     let names = content.undeclared.join(" ");
                     anstream::eprintln!("{WARNING}warning{WARNING:#}: {shown}: used, but not required: {names}");
@@ -190,7 +199,8 @@ fn problem_content(problem: &Problem, domain: &Domain) -> Content {
     let lacking = undeclared_requirements(&required_by_domain(domain), &domain.requirements);
     let mut undeclared = undeclared_requirements(&required_by_problem(problem), &declared);
     undeclared.retain(|name| !lacking.contains(name));
-    content(Some(&problem.name), counts, undeclared)
+    let misfits = misfits(problem, domain).iter().map(ToString::to_string).collect();
+    Content { misfits, ..content(Some(&problem.name), counts, undeclared) }
 }
 
 fn trajectory_content(trajectory: &Trajectory) -> Content {
@@ -200,7 +210,7 @@ fn trajectory_content(trajectory: &Trajectory) -> Content {
 
 fn content(name: Option<&Symbol>, counts: Vec<(&'static str, usize)>, undeclared: Vec<&'static str>) -> Content {
     let counts = counts.into_iter().map(|(what, n)| (what, n as u64)).collect();
-    Content { name: name.cloned(), counts, undeclared }
+    Content { name: name.cloned(), counts, undeclared, misfits: Vec::new() }
 }
 
 /// ` blocks, 4 actions, 5 predicates, 0 types`; of what comes after, what there is.

@@ -111,6 +111,32 @@ fn what_planning_refuses_is_refused() {
     }
 }
 
+/// An action for anything meets what is said of a thing that its predicate is not declared for.
+#[test]
+fn what_is_said_of_things_of_other_types() {
+    let folder = Folder::new();
+    let domain = "(define (domain shop) (:types cup lid - thing) (:predicates (wet ?c - cup) (dry ?c - cup))
+ (:action wipe :parameters (?x - thing) :precondition (wet ?x) :effect (and (dry ?x) (not (wet ?x)))))";
+    folder.write("domain.pddl", domain);
+    let problem = |goal: &str| {
+        format!("(define (problem p) (:domain shop) (:objects c - cup l m - lid) (:init (wet l)) (:goal ({goal})))")
+    };
+    folder.write("p.pddl", problem("dry l"));
+    let checked = folder.run("pddl check domain.pddl p.pddl");
+    checked.succeeds();
+    assert_eq!(
+        checked.err,
+        "warning: domain.pddl: used, but not required: :typing\n\
+         warning: p.pddl: 2 atoms not of the types that the predicate declares: wet(l)\n"
+    );
+    assert!(folder.run("pddl check domain.pddl p.pddl --json").out.contains(r#""misfits":["wet(l)","dry(l)"]"#));
+    folder.run("plan domain.pddl p.pddl -o plan").succeeds();
+    folder.run("validate domain.pddl p.pddl plan").succeeds();
+    folder.write("p.pddl", problem("dry m"));
+    let none = folder.run("plan domain.pddl p.pddl");
+    assert!(none.code == 11 && none.err.contains("it needs wet(m)"), "{none}");
+}
+
 #[test]
 fn where_the_domain_is_found() {
     let folder = Folder::new();
