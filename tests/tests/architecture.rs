@@ -167,7 +167,7 @@ const ORDER_IN_PLAN: &[&str] = &[
 #[rustfmt::skip]
 const ORDER_IN_PDDL: &[&str] = &[
     "position", "syntax", "error", "layout_tokens", "sexpr",
-    "format", "names", "required", "requirements", "syntax_writer", "formula_text", "trajectory", "typed_list", "vocabulary",
+    "format", "misfits", "names", "required", "requirements", "syntax_writer", "formula_text", "trajectory", "typed_list", "vocabulary",
     "definition", "objects", "plan_file", "scope", "types",
     "formula_reader", "effect_reader", "domain_reader", "problem_reader", "compile", "export", "meaning", "model_problem",
 ];
