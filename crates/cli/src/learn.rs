@@ -4,13 +4,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
 use std::path::PathBuf;
 
-use serde::Serialize;
 use typelift::learn::{self, Actor, LearnError, Options, evidence_of, learn_evidence};
 use typelift::model::{
-    ClusterKey, GroundAtom, LearnedModel, LiftedAtom, Observations, RefusedMerges, SourceId, Symbol, Unexplained,
-    name_with_arity, predicate_told_apart,
+    ClusterKey, GroundAtom, LearnedModel, LiftedAtom, Observations, SourceId, Symbol, Unexplained, name_with_arity,
+    predicate_told_apart,
 };
-use typelift::words::{count, places, why_unexplained};
+use typelift::words::{TypeNote, missing_actor, unbounded_parameters};
 use typelift::world::{
     Dataset, ObjectTypes, Repeated, TrajectoryContext, Unlisted, demonstrations_at, read_dataset, write_file,
 };
@@ -19,9 +18,10 @@ use crate::exit::Exit;
 use crate::failure::{Failure, or_one_of};
 use crate::files::warn;
 use crate::learn_into::{self, add, beginning, forget};
+use crate::learn_report::{Report, print_counts};
 use crate::limits::{Clock, Limits};
 use crate::overwriting::{Output, keep_inputs};
-use crate::style::{HEAD, HINT, WARNING, wrapped};
+use crate::style::{HEAD, HINT, WARNING};
 use crate::watchdog::within;
 
 /// Learn actions from demonstrations
@@ -85,44 +85,41 @@ pub(crate) struct Learn {
     limits: Limits,
 }
 
-#[derive(Serialize)]
-struct Report {
-    traces: usize,
-    transitions: u64,
-    individual_actions: usize,
-    generalized_actions: usize,
-    failures: u64,
-    refused_merges: usize,
-    failures_against_merges: u64,
-    unexplained: u64,
-    single_support: usize,
-    predicates: BTreeMap<Symbol, usize>,
-    actions: Vec<Symbol>,
+/// What was read, and what was learned from it.
+struct Learned {
+    dataset: Dataset,
+    /// The traces that the model had already.
+    known: Vec<SourceId>,
+    model: LearnedModel,
+    report: learn::Report,
+    /// What follows from where types meet, and may not be meant.
+    notes: Vec<TypeNote>,
 }
 
 impl Learn {
     pub(crate) fn run(&self, clock: Clock, quiet: bool) -> Result<Exit, Failure> {
         let output = self.output.as_ref().or(self.into.as_ref()).filter(|_| !self.dry_run);
         keep_inputs(output.map(|path| Output::File(path)), self.inputs())?;
-        let (dataset, known, model, report) = within(clock, self.limits, || self.learn())?;
+        let learned = within(clock, self.limits, || self.learn())?;
+        let Learned { model, report, notes, .. } = &learned;
         // First, so that the model is written even if standard output is closed.
         if let Some(path) = output {
             write_file(path, model.to_json()?.as_bytes())?;
         }
         let mut out = anstream::stdout().lock();
         if self.json {
-            writeln!(out, "{}", serde_json::to_string_pretty(&json_report(&model, &report)).unwrap_or_default())?;
+            writeln!(out, "{}", serde_json::to_string_pretty(&Report::of(model, report, notes)).unwrap_or_default())?;
         } else if self.dry_run {
-            self.describe(&mut out, &dataset, &model, &report)?;
+            self.describe(&mut out, &learned)?;
         } else {
-            print_counts(&mut out, &model, &report)?;
+            print_counts(&mut out, model, report, notes)?;
         }
         out.flush()?;
         if !quiet {
             if let Some(path) = output {
                 anstream::eprintln!("wrote {}", path.display());
             }
-            self.warn(&dataset, &known, &model, &report);
+            self.warn(&learned);
         }
         Ok(Exit::Success)
     }
@@ -136,8 +133,8 @@ impl Learn {
         traces.chain(problems).chain(forgotten).chain(self.types.clone()).chain(self.objects.clone()).collect()
     }
 
-    /// Reads the traces, and learns from them; also gives those that the model had already.
-    fn learn(&self) -> Result<(Dataset, Vec<SourceId>, LearnedModel, learn::Report), Failure> {
+    /// Reads the traces, and learns from them.
+    fn learn(&self) -> Result<Learned, Failure> {
         let ignore = self.ignore.iter().filter(|name| !name.is_empty()).map(|name| Symbol::new(name)).collect();
         let mut types = match (&self.problems, &self.objects) {
             (Some(folder), _) => ObjectTypes::from_problems(folder)?,
@@ -154,6 +151,7 @@ impl Learn {
         types.add_constants(model.constants.iter().map(|(name, ty)| (name, model.hierarchy.name(*ty))));
         let context = TrajectoryContext { types, unlisted };
         let constants = model.constants;
+        let actor_before = model.actor.map(|ty| model.hierarchy.name(ty).clone());
         let dataset = match self.traces.as_slice() {
             [] => Dataset { hierarchy: model.hierarchy, parse, ..Dataset::default() },
             traces => read_dataset(traces, model.hierarchy, parse, &context)?,
@@ -179,17 +177,14 @@ impl Learn {
             Failure::bad_input(format!("--actor {name}: {error}")).with_hint(hint)
         })?;
         (model.domain, model.model.constants) = (domain, constants);
-        Ok((dataset, known, model, report))
+        let missing_actor = report.no_actor.as_ref().and_then(|why| missing_actor(why, actor_before.as_ref()));
+        let notes = missing_actor.into_iter().chain(unbounded_parameters(&model.model)).collect();
+        Ok(Learned { dataset, known, model, report, notes })
     }
 
     /// `--dry-run`: what would be learned from.
-    fn describe(
-        &self,
-        out: &mut impl Write,
-        dataset: &Dataset,
-        model: &LearnedModel,
-        report: &learn::Report,
-    ) -> Result<(), Failure> {
+    fn describe(&self, out: &mut impl Write, learned: &Learned) -> Result<(), Failure> {
+        let Learned { dataset, model, report, notes, .. } = learned;
         let mut types: BTreeMap<&Symbol, usize> = BTreeMap::new();
         for trace in &dataset.traces {
             for ty in trace.states.first().into_iter().flat_map(|state| state.objects.values()) {
@@ -237,12 +232,13 @@ impl Learn {
             let types: Vec<&str> = key.types.iter().map(Symbol::as_str).collect();
             writeln!(out, "  {:<66} {:>6}", format!("{}({})", key.action, types.join(", ")), cluster.count)?;
         }
-        print_counts(out, model, report)
+        print_counts(out, model, report, notes)
     }
 
     /// Warns of what is probably not meant in the files, of names to ignore that were never met, and of attributes that
     /// seem to flicker: most actions rest on a single observation, and there would be fewer without some predicate.
-    fn warn(&self, dataset: &Dataset, known: &[SourceId], model: &LearnedModel, report: &learn::Report) {
+    fn warn(&self, learned: &Learned) {
+        let Learned { dataset, known, model, report, .. } = learned;
         for Repeated { file, first, source } in &dataset.repeated {
             let source = source.short();
             anstream::eprintln!(
@@ -266,6 +262,10 @@ impl Learn {
             if let Some(source) = dataset.attributes.get(rule) {
                 anstream::eprintln!("{HINT}hint{HINT:#}: {rule} is a predicate; it comes from {source}");
             }
+        }
+        // Of the notes only that of the actor is about no parameter.
+        if learned.notes.iter().any(|note| note.parameter.is_none()) {
+            anstream::eprintln!("{HINT}hint{HINT:#}: --actor TYPE says who acts");
         }
         if report.individual == 0 {
             let why = match report.transitions {
@@ -308,52 +308,4 @@ fn flickering(observations: &Observations) -> Option<(Symbol, usize, usize)> {
     let (fewest, predicate) = predicates.into_iter().map(|predicate| (kinds(Some(predicate)), predicate)).min()?;
     let all = kinds(None);
     (fewest < all).then(|| (predicate.clone(), fewest, all))
-}
-
-fn json_report(model: &LearnedModel, report: &learn::Report) -> Report {
-    Report {
-        traces: model.evidence.sources().len(),
-        transitions: report.transitions,
-        individual_actions: report.individual,
-        generalized_actions: report.generalized,
-        failures: report.failures,
-        refused_merges: report.refused.pairs,
-        failures_against_merges: report.refused.failures,
-        unexplained: report.unexplained,
-        single_support: report.single_support,
-        predicates: model.model.predicates.iter().map(|(name, types)| (name.clone(), types.len())).collect(),
-        actions: model.model.actions.iter().map(|action| action.name.clone()).collect(),
-    }
-}
-
-/// What to say of pairs of actions that were not merged, if there are any.
-pub(crate) fn refused_merges(refused: RefusedMerges) -> Option<String> {
-    let RefusedMerges { pairs, failures } = refused;
-    let speak = if failures == 1 { "speaks" } else { "speak" };
-    (!refused.is_none()).then(|| {
-        format!("{} not merged: {} {speak} against it", count(pairs as u64, "pair"), count(failures, "failure"))
-    })
-}
-
-fn print_counts(out: &mut impl Write, model: &LearnedModel, report: &learn::Report) -> Result<(), Failure> {
-    let traces = count(model.evidence.sources().len() as u64, "demonstration");
-    writeln!(out, "{}, from {traces}", count(report.transitions, "transition"))?;
-    writeln!(out, "{}", count(report.individual as u64, "individual action"))?;
-    let generalized = count(report.generalized as u64, "generalized action");
-    if report.generalized != report.individual {
-        let names = model.model.actions.iter().map(|action| action.name.as_str());
-        writeln!(out, "{generalized}:\n  {}", wrapped(names, 2, 80))?;
-    }
-    if let Some(line) = refused_merges(report.refused) {
-        writeln!(out, "{line}")?;
-    }
-    if report.failures > 0 {
-        writeln!(out, "{} not executed, or changed nothing", count(report.failures, "transition"))?;
-    }
-    for (reason, (times, witnesses)) in &model.evidence.total().unexplained {
-        let places = places(witnesses, *times);
-        let (transitions, reason) = (count(*times, "transition"), why_unexplained(*reason));
-        writeln!(out, "{transitions} unexplained, {reason}: {places}")?;
-    }
-    Ok(())
 }

@@ -17,6 +17,7 @@ mod kitchen;
 mod lab;
 mod learn;
 mod learn_into;
+mod learn_report;
 mod limits;
 mod memory;
 mod narrate;

@@ -10,7 +10,7 @@ use typelift::words::{Description, count, describe_action, describe_axiom};
 use crate::exit::Exit;
 use crate::failure::{Failure, or_one_of};
 use crate::files::{ModelInput, read_model_input};
-use crate::learn::refused_merges;
+use crate::learn_report::refused_merges;
 use crate::show_vocabulary::{list_predicates, list_types};
 use crate::style::described;
 

@@ -1,34 +1,71 @@
 //! Who acts, as far as the demonstrations show it.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
-use typelift_model::{Hierarchy, Observations, Symbol, TypeId};
+use typelift_model::{ActedOn, ClusterKey, Hierarchy, NoActor, Observations, Symbol, TypeId};
 
 use crate::LearnError;
 
-/// The type that filled argument 0 of every action and took no other part in any: the default actor. What counts is what
-/// was seen, since an action that was generalized may take anything at all, the actor included, in another place. With
-/// calls of a single name nothing tells who acts, and there is none.
+/// The type that filled argument 0 of every action and took no other part in any: the default actor; or why there is none.
+/// What counts is what was seen, since an action that was generalized may take anything at all, the actor included, in
+/// another place. With calls of a single name nothing tells who acts.
 ///
 /// # Errors
 /// [`LearnError::UnknownType`] if something observed is of a type that `hierarchy` does not have.
 pub(crate) fn demonstrated_actor(
     observations: &Observations,
     hierarchy: &Hierarchy,
-) -> Result<Option<TypeId>, LearnError> {
+) -> Result<Result<TypeId, NoActor>, LearnError> {
     let id = |name: &Symbol| hierarchy.id(name.as_str()).ok_or_else(|| LearnError::UnknownType(name.clone()));
-    let (mut calls, mut acting, mut others) = (BTreeSet::new(), BTreeSet::new(), BTreeSet::new());
+    let (mut calls, mut acting, mut others) = (BTreeSet::new(), BTreeSet::new(), BTreeMap::new());
     for key in observations.clusters.keys() {
-        let Some(&first) = key.call.first() else { return Ok(None) };
+        let Some(&first) = key.call.first() else { return Ok(Err(NoActor::NoArgument(key.action.clone()))) };
         calls.insert(&key.action);
         for (parameter, name) in (0..).zip(&key.types) {
-            let part = if parameter == first { &mut acting } else { &mut others };
-            part.insert(id(name)?);
+            if parameter == first {
+                acting.insert(id(name)?);
+            } else {
+                others.entry(id(name)?).or_insert((key, parameter));
+            }
         }
     }
-    let actor = acting.into_iter().reduce(|a, b| hierarchy.lca(a, b));
-    let is_alone = |actor: &TypeId| others.iter().all(|&other| hierarchy.disjoint(other, *actor));
-    Ok(actor.filter(|actor| calls.len() > 1 && *actor != hierarchy.root() && is_alone(actor)))
+    if let (Some(&call), 1) = (calls.first(), calls.len()) {
+        return Ok(Err(NoActor::OneCall(call.clone())));
+    }
+    Ok(acts_alone(&acting, &others, hierarchy))
+}
+
+/// The type in which the acting types meet, if nothing else may be of it; `others` are the types that take another part,
+/// each with a place where.
+fn acts_alone(
+    acting: &BTreeSet<TypeId>,
+    others: &BTreeMap<TypeId, (&ClusterKey, u32)>,
+    hierarchy: &Hierarchy,
+) -> Result<TypeId, NoActor> {
+    let Some(meet) = acting.iter().copied().reduce(|a, b| hierarchy.lca(a, b)) else {
+        return Err(NoActor::NothingLearned);
+    };
+    let acted_on = |ty: TypeId, (key, parameter): (&ClusterKey, u32)| ActedOn {
+        call: key.action.clone(),
+        argument: key.call.iter().position(|&place| place == parameter),
+        ty: hierarchy.name(ty).clone(),
+    };
+    if let Some((&ty, place)) = acting.iter().find_map(|ty| others.get_key_value(ty)) {
+        return Err(NoActor::ActedOn(acted_on(ty, *place)));
+    }
+    let names = || acting.iter().map(|ty| hierarchy.name(*ty).clone()).collect();
+    if meet == hierarchy.root() {
+        return Err(NoActor::NothingInCommon { acting: names(), root: hierarchy.name(meet).clone() });
+    }
+    match others.iter().find(|&(&other, _)| !hierarchy.disjoint(other, meet)) {
+        None => Ok(meet),
+        Some((&other, &place)) => Err(NoActor::NotAlone {
+            acting: names(),
+            meet: hierarchy.name(meet).clone(),
+            other: acted_on(other, place),
+            is_covered: hierarchy.is_a(other, meet),
+        }),
+    }
 }
 
 #[cfg(test)]

@@ -36,7 +36,7 @@ mod score;
 
 use thiserror::Error;
 use typelift_model::{
-    ActionModel, Evidence, Hierarchy, LearnedModel, Observations, ParseConfig, RefusedMerges, Symbol,
+    ActionModel, Evidence, Hierarchy, LearnedModel, NoActor, Observations, ParseConfig, RefusedMerges, Symbol,
 };
 use typelift_world::{Dataset, Trace};
 
@@ -65,6 +65,8 @@ pub struct Report {
     pub unexplained: u64,
     /// Actions of the model that rest on a single observation.
     pub single_support: usize,
+    /// Why the model has no default actor, if none was declared and the demonstrations do not show one.
+    pub no_actor: Option<NoActor>,
 }
 
 /// A model and how it came about.
@@ -147,7 +149,7 @@ pub fn learn(hierarchy: &Hierarchy, observations: &Observations, options: &Optio
         (actions, counts) = generalize::to_fixed_point(actions, observations, hierarchy);
     }
     predicates::tell_apart_by_arity(&mut actions, observations);
-    let report = Report {
+    let mut report = Report {
         transitions: observations.transitions,
         individual,
         generalized: actions.len(),
@@ -156,6 +158,7 @@ pub fn learn(hierarchy: &Hierarchy, observations: &Observations, options: &Optio
         failures: observations.failures(),
         unexplained: observations.unexplained.values().map(|(count, _)| count).sum(),
         single_support: actions.iter().filter(|action| action.observations() == 1).count(),
+        no_actor: None,
     };
     let mut model = ActionModel {
         predicates: predicates::types_of_predicates(observations, &actions, hierarchy)?,
@@ -164,7 +167,13 @@ pub fn learn(hierarchy: &Hierarchy, observations: &Observations, options: &Optio
         ..ActionModel::default()
     };
     model.actor = match &options.actor {
-        None => actor::demonstrated_actor(observations, hierarchy)?,
+        None => match actor::demonstrated_actor(observations, hierarchy)? {
+            Ok(actor) => Some(actor),
+            Err(why) => {
+                report.no_actor = Some(why);
+                None
+            }
+        },
         Some(Actor::Nobody) => None,
         Some(Actor::Type(name)) => {
             Some(hierarchy.id(name.as_str()).ok_or_else(|| LearnError::UnknownType(name.clone()))?)

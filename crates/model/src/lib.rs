@@ -32,6 +32,7 @@ mod model_1;
 mod model_error;
 mod model_file;
 mod model_reader;
+mod no_actor;
 mod numbered_keys;
 mod observations;
 mod open_file;
@@ -74,6 +75,7 @@ pub use learned_model::{Actor, Disagreement, LearnOptions, LearnedModel, Refused
 pub use matching::{Place, bind_places};
 pub use model_error::{MODEL_FORMAT, ModelFileError};
 pub use model_reader::MOST_PRECONDITIONS;
+pub use no_actor::{ActedOn, NoActor};
 pub use numbered_keys::numbered_keys;
 pub use observations::{
     Cluster, ClusterKey, MOST_PARAMETERS, NegativeKey, Observations, OpenObservations, Unexplained, WITNESS_BOUND,

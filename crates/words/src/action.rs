@@ -1,6 +1,6 @@
 //! Actions and axioms in words, as labelled rows.
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 
 use serde::Serialize;
 use typelift_model::{
@@ -179,21 +179,23 @@ fn rather_than(hierarchy: &Hierarchy, met: impl Iterator<Item = TypeId>, taken: 
     if others.is_empty() { String::new() } else { format!(", which covers no more than {} would", others.join(" or ")) }
 }
 
+/// The types that the individual actions behind an action have for this parameter.
+pub(crate) fn types_met(action: &ActionSchema, parameter: usize) -> BTreeSet<&Symbol> {
+    let own = |support: &Support| support.map.iter().position(|&p| p as usize == parameter);
+    let supports = action.provenance.support().iter();
+    supports.filter_map(|support| Some(&support.cluster.types[own(support)?])).collect()
+}
+
 /// Why individual actions were merged: the same effect, and where their types meet.
 fn because(action: &ActionSchema, model: &ActionModel) -> Vec<String> {
     let mut reasons = vec!["all have this effect;".to_owned()];
     for (i, parameter) in action.parameters.iter().enumerate() {
-        let mut met: BTreeMap<&Symbol, ()> = BTreeMap::new();
-        for support in action.provenance.support() {
-            if let Some(own) = support.map.iter().position(|&p| p as usize == i) {
-                met.insert(&support.cluster.types[own], ());
-            }
-        }
+        let met = types_met(action, i);
         if met.len() > 1 {
-            let names: Vec<&str> = met.keys().map(|name| name.as_str()).collect();
+            let names: Vec<&str> = met.iter().map(|name| name.as_str()).collect();
             let hierarchy = &model.hierarchy;
             let of_others =
-                rather_than(hierarchy, met.keys().filter_map(|name| hierarchy.id(name.as_str())), parameter.ty);
+                rather_than(hierarchy, met.iter().filter_map(|name| hierarchy.id(name.as_str())), parameter.ty);
             reasons.push(format!("{} meet in {}{of_others};", names.join(", "), hierarchy.name(parameter.ty)));
         }
     }

@@ -1,6 +1,11 @@
-//! What learning could make nothing of.
+//! What learning could make nothing of, and where it went further than may have been meant.
 
-use typelift_model::Unexplained;
+use std::collections::BTreeSet;
+
+use serde::Serialize;
+use typelift_model::{ActedOn, ActionModel, NoActor, Symbol, Unexplained};
+
+use crate::action::types_met;
 
 /// Why nothing was learned from a transition.
 pub fn why_unexplained(reason: Unexplained) -> &'static str {
@@ -12,5 +17,107 @@ pub fn why_unexplained(reason: Unexplained) -> &'static str {
         Unexplained::TooSymmetric => "too many entities changed alike to tell them apart",
         Unexplained::NotExecuted => "something changed, though the action was not executed",
         Unexplained::TimedOut => "the action was not finished in time",
+    }
+}
+
+/// Something that follows from where types meet, and that whoever plans with the model should know.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct TypeNote {
+    /// It in a sentence.
+    pub text: String,
+    /// The action, or the name of the call, that it is about.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub action: Option<Symbol>,
+    /// The action's parameter that it is about.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub parameter: Option<Symbol>,
+    /// The types that met.
+    pub met: Vec<Symbol>,
+}
+
+/// Each parameter that anything at all may fill, since the types that were merged have nothing in common; in the order of
+/// the model's actions. In time of a look at what the actions rest on.
+pub fn unbounded_parameters(model: &ActionModel) -> Vec<TypeNote> {
+    let root = model.hierarchy.root();
+    let root_name = model.hierarchy.name(root);
+    let mut notes = Vec::new();
+    for action in &model.actions {
+        for (index, parameter) in action.parameters.iter().enumerate().filter(|(_, parameter)| parameter.ty == root) {
+            let met = types_met(action, index);
+            // Where something of the top type itself was seen, nothing rose.
+            if met.len() < 2 || met.contains(root_name) {
+                continue;
+            }
+            let (name, types) = (&parameter.name, joined(met.iter().copied(), "and"));
+            notes.push(TypeNote {
+                text: format!(
+                    "{} takes anything as ?{name}: {types} have nothing in common but {root_name}",
+                    action.name
+                ),
+                action: Some(action.name.clone()),
+                parameter: Some(name.clone()),
+                met: met.into_iter().cloned().collect(),
+            });
+        }
+    }
+    notes
+}
+
+/// Why there is no default actor, where that may come as a surprise: it lies in the types, or there was one `before`.
+pub fn missing_actor(why: &NoActor, before: Option<&Symbol>) -> Option<TypeNote> {
+    let begins = match before {
+        Some(before) => format!("the default actor was {before}, and now there is none: "),
+        None if why.is_due_to_types() => "there is no default actor: ".to_owned(),
+        None => return None,
+    };
+    let acts = |acting: &BTreeSet<Symbol>| format!("argument 0 of the actions is {}", joined(acting, "or"));
+    let (action, met, because) = match why {
+        NoActor::NothingLearned => (None, Vec::new(), "no action was learned".to_owned()),
+        NoActor::NoArgument(call) => (Some(call), Vec::new(), format!("{call} has no argument")),
+        NoActor::OneCall(call) => {
+            (Some(call), Vec::new(), format!("every action is {call}, so nothing tells who acts"))
+        }
+        NoActor::ActedOn(place @ ActedOn { call, ty, .. }) => {
+            (Some(call), vec![ty], format!("{ty} acts, but {} too", takes(place)))
+        }
+        NoActor::NothingInCommon { acting, root } if acting.contains(root) => {
+            (None, acting.iter().collect(), format!("what acts is of type {root}, as everything is"))
+        }
+        NoActor::NothingInCommon { acting, root } => {
+            (None, acting.iter().collect(), format!("{}, which have nothing in common but {root}", acts(acting)))
+        }
+        NoActor::NotAlone { acting, meet, other, is_covered } => {
+            let meets = if acting.contains(meet) { String::new() } else { format!(", which meet in {meet}") };
+            let is = if *is_covered { "is" } else { "may be" };
+            let met = acting.iter().chain([&other.ty]).collect();
+            (
+                Some(&other.call),
+                met,
+                format!("{}{meets}; but {}, which {is} of type {meet}, too", acts(acting), takes(other)),
+            )
+        }
+    };
+    Some(TypeNote {
+        text: begins + &because,
+        action: action.cloned(),
+        parameter: None,
+        met: met.into_iter().cloned().collect(),
+    })
+}
+
+fn takes(ActedOn { call, argument, ty }: &ActedOn) -> String {
+    match argument {
+        Some(argument) => format!("{call} takes {ty} as argument {argument}"),
+        None => format!("{call} changes {ty}"),
+    }
+}
+
+/// `cup, lid and tray`.
+fn joined<'s>(names: impl IntoIterator<Item = &'s Symbol>, last: &str) -> String {
+    let names: Vec<&str> = names.into_iter().map(Symbol::as_str).collect();
+    match names.as_slice() {
+        [] => String::new(),
+        [name] => (*name).to_owned(),
+        [first @ .., name] => format!("{} {last} {name}", first.join(", ")),
     }
 }

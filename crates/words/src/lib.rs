@@ -11,7 +11,7 @@
 //! | `answer.rs`      | the answer to a planning question                       |
 //! | `action.rs`      | actions and axioms of a model                           |
 //! | `difference/`    | how two models differ                                   |
-//! | `learning.rs`    | what learning could make nothing of                     |
+//! | `learning.rs`    | what learning could make nothing of, and took too far   |
 //! | `account.rs`     | how an episode went                                     |
 //! | `event.rs`       | what happens during an episode                          |
 //! | `wire.rs`        | commands and events for programs outside                |
@@ -34,7 +34,7 @@ pub use answer::{AnswerView, ending, why_none};
 pub use difference::{ActionDifference, ListDifference, ModelDifference, difference, difference_lines};
 pub use event::line;
 pub use inspection::{FindingView, InspectionView, TriedView, inspection_lines};
-pub use learning::why_unexplained;
+pub use learning::{TypeNote, missing_actor, unbounded_parameters, why_unexplained};
 pub use plan::{PlanView, StepView, imagined_note, numbered_steps, plan_size};
 pub use text::{Role, Span, Text, count, places};
 pub use wire::{WireCommand, WireEvent, wire_command, wire_event};

@@ -115,3 +115,54 @@ fn models_of_the_format_before_are_read() {
         assert_eq!(folder.read(name), new);
     }
 }
+
+/// A gripper takes a thing and lays it down; with other types a person does, and hands what it has to the gripper.
+fn trace_of(who: &str, thing: &str) -> String {
+    let state = |atom: &str| {
+        let objects = format!(r#"{{"w":"{who}","t":"{thing}","p":"place","g":"gripper"}}"#);
+        format!(r#"{{"state":{{"objects":{objects},"atoms":["{atom}"]}}}}"#)
+    };
+    let action = |name: &str, args: &str| format!(r#"{{"action":{{"name":"{name}","args":[{args}]}}}}"#);
+    let lines = [
+        r#"{"format":"trace/1"}"#.to_owned(),
+        state("lies(t,p)"),
+        action("take", r#""w","t""#),
+        state("holds(w,t)"),
+        action("lay", r#""w","t","p""#),
+        state("lies(t,p)"),
+    ];
+    lines.join("\n") + "\n"
+}
+
+#[test]
+fn what_types_take_too_far_is_said() {
+    let folder = Folder::new();
+    folder
+        .write("flat.json", r#"{"gripper":"object","person":"object","cup":"object","lid":"object","place":"object"}"#);
+    folder.write("deep.json", r#"{"gripper":"agent","person":"agent","agent":"object","cup":"item","lid":"item","place":"object","item":"object"}"#);
+    folder.write(
+        "odd.json",
+        r#"{"gripper":"thing","person":"thing","cup":"thing","lid":"thing","thing":"object","place":"object"}"#,
+    );
+    for (who, thing) in [("gripper", "cup"), ("gripper", "lid"), ("person", "cup")] {
+        folder.write(&format!("{who}-{thing}.jsonl"), trace_of(who, thing));
+    }
+    let all = "gripper-cup.jsonl gripper-lid.jsonl person-cup.jsonl";
+    let mut transcript = Transcript::default();
+    transcript.add(
+        "types that meet below the top",
+        &folder.run(&format!("learn {all} --types deep.json -o deep-model.json")),
+    );
+    transcript.add("types that meet at the top", &folder.run(&format!("learn {all} --types flat.json --dry-run")));
+    transcript
+        .add("types that meet with others", &folder.run(&format!("learn {all} --types odd.json -o odd-model.json")));
+    transcript
+        .add("one acts", &folder.run("learn gripper-cup.jsonl gripper-lid.jsonl --types flat.json -o flat-model.json"));
+    transcript.add("another acts too", &folder.run("learn --into flat-model.json person-cup.jsonl --json"));
+    transcript.add("somebody is said to act", &folder.run("learn --into flat-model.json --actor person"));
+    folder.run("learn gripper-cup.jsonl gripper-lid.jsonl --types flat.json -o flat-model.json -q").succeeds();
+    folder.write("acted-on.jsonl", trace_of("gripper", "gripper"));
+    transcript.add("what acts is acted on", &folder.run("learn --into flat-model.json acted-on.jsonl"));
+    transcript.add("from the start", &folder.run("learn gripper-cup.jsonl acted-on.jsonl --types flat.json --dry-run"));
+    insta::assert_snapshot!(transcript.0);
+}

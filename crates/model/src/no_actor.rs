@@ -1,0 +1,54 @@
+//! Why a model has no default actor.
+
+use std::collections::BTreeSet;
+
+use crate::Symbol;
+
+/// A place in which something takes part in a call without acting.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ActedOn {
+    /// The call's name.
+    pub call: Symbol,
+    /// The argument, from 0; none if the call does not name what is there.
+    pub argument: Option<usize>,
+    /// The type of what was seen there.
+    pub ty: Symbol,
+}
+
+/// Why the demonstrations do not show who acts.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum NoActor {
+    /// No action was learned.
+    NothingLearned,
+    /// This call has no argument.
+    NoArgument(Symbol),
+    /// All calls have this name.
+    OneCall(Symbol),
+    /// What acts is acted on as well: its type was seen in this place, too.
+    ActedOn(ActedOn),
+    /// What acts takes no other part, but its types have nothing in common but the root.
+    NothingInCommon {
+        /// The types that act.
+        acting: BTreeSet<Symbol>,
+        /// The root.
+        root: Symbol,
+    },
+    /// What acts takes no other part, but the type in which its types meet has something in common with what does.
+    NotAlone {
+        /// The types that act.
+        acting: BTreeSet<Symbol>,
+        /// Where they meet.
+        meet: Symbol,
+        /// What takes another part.
+        other: ActedOn,
+        /// Whether all of that other type is of the type in which they meet; otherwise some of it may be.
+        is_covered: bool,
+    },
+}
+
+impl NoActor {
+    /// Whether it lies in the hierarchy of types, and not in what was demonstrated: with other types there would be an actor.
+    pub fn is_due_to_types(&self) -> bool {
+        matches!(self, Self::NothingInCommon { .. } | Self::NotAlone { .. })
+    }
+}
