@@ -25,7 +25,7 @@ pub(crate) fn list_predicates(out: &mut impl Write, model: &ActionModel, json: b
     Ok(Exit::Success)
 }
 
-/// A type a line, indented under the one that it is a kind of.
+/// A type a line, indented under the first of those that it is a kind of, with the others beside it.
 pub(crate) fn list_types(out: &mut impl Write, hierarchy: &Hierarchy, json: bool) -> Result<Exit, Failure> {
     if json {
         let mut parents: BTreeMap<&Symbol, Vec<&Symbol>> =
@@ -41,8 +41,15 @@ pub(crate) fn list_types(out: &mut impl Write, hierarchy: &Hierarchy, json: bool
     // What is still to be listed, and how deep it stands.
     let mut left = vec![(hierarchy.root(), 0)];
     while let Some((ty, depth)) = left.pop() {
-        writeln!(out, "{}{}", "  ".repeat(depth), hierarchy.name(ty))?;
-        let children: Vec<_> = hierarchy.children(ty).map(|child| (child, depth + 1)).collect();
+        write!(out, "{}{}", "  ".repeat(depth), hierarchy.name(ty))?;
+        let others: Vec<&str> =
+            hierarchy.parents(ty).iter().skip(1).map(|&parent| hierarchy.name(parent).as_str()).collect();
+        match others.as_slice() {
+            [] => writeln!(out)?,
+            others => writeln!(out, " (also a kind of {})", others.join(" and "))?,
+        }
+        let children = hierarchy.children(ty).filter(|&child| hierarchy.parents(child).first() == Some(&ty));
+        let children: Vec<_> = children.map(|child| (child, depth + 1)).collect();
         left.extend(children.into_iter().rev());
     }
     Ok(Exit::Success)

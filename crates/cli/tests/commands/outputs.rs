@@ -233,3 +233,16 @@ fn who_wants_it_quiet_gets_no_hint() {
     let quiet = folder.run(&format!("{command} -q"));
     assert_eq!((quiet.code, quiet.err.as_str()), (12, ""), "{quiet}");
 }
+
+#[test]
+fn a_type_of_several_kinds_is_listed_once() {
+    let folder = Folder::new();
+    folder.write("types.json", r#"{"bed": "object", "seat": "object", "sofa": ["bed", "seat"], "futon": "sofa"}"#);
+    let states = [r#"["made(sofa_1)"]"#, "[]"]
+        .map(|atoms| format!(r#"{{"state":{{"objects":{{"sofa_1":"sofa"}},"atoms":{atoms}}}}}"#));
+    let action = r#"{"action":{"name":"sleep","args":["sofa_1"]}}"#;
+    folder.write("nap.jsonl", format!("{{\"format\":\"trace/1\"}}\n{}\n{action}\n{}\n", states[0], states[1]));
+    folder.run("learn nap.jsonl --types types.json -o nap.json -q").succeeds();
+    let listed = folder.run("show nap.json --types").out;
+    assert_eq!(listed, "object\n  bed\n    sofa (also a kind of seat)\n      futon\n  seat\n");
+}
