@@ -139,17 +139,17 @@ mod tests {
             (r#"{"id":1}"#, "it has no `ok`"),
             (r#"{"id":1,"ok":"yes"}"#, "`ok` is not true or false"),
             (r#"{"id":1,"ok":true,"executed":1}"#, "`executed` is not true or false"),
-            (r#"{"id":1,"id":1,"ok":true}"#, "duplicate field `id`"),
+            (r#"{"id":1,"id":1,"ok":true}"#, "`id` stands here twice"),
             (r#"{"id":1,"ok":true,"state":[]}"#, "`state` is not an object"),
             (r#"{"id":1,"ok":true,"state":{}}"#, "in the state, there are neither `entities` nor `objects`"),
             (r#"{"id":1,"ok":true,"state":{"entities":{}}}"#, "in the state, `entities` is not a list"),
             (
                 r#"{"id":1,"ok":true,"state":{"entities":[{"id":"a","type":"saw"},{"id":"b"}]}}"#,
-                "in the state, entity b: missing field `type`",
+                "in the state, entity b: `type` is missing",
             ),
             (
                 r#"{"id":1,"ok":true,"state":{"entities":[{"type":"saw"}]}}"#,
-                "in the state, entity number 1: missing field `id`",
+                "in the state, entity number 1: `id` is missing",
             ),
             (
                 r#"{"id":1,"ok":true,"state":{"entities":[{"id":"a","type":"saw","attributes":{"speed":{}}}]}}"#,

@@ -7,7 +7,10 @@ use std::sync::mpsc::RecvTimeoutError;
 use std::time::{Duration, Instant};
 
 use typelift_model::{GroundCall, Symbol};
-use typelift_world::{Acted, Answer, LINE_LIMIT, PROTOCOL, Request, RequestBody, Reset, Scene, World, WorldError};
+use typelift_world::{
+    Acted, Answer, LINE_LIMIT, PROTOCOL, Request, RequestBody, Reset, Scene, UnreadKey, World, WorldError,
+    unread_keys_of_answer,
+};
 
 use crate::answer::{Unreadable, read_answer};
 use crate::error::{BridgeError, Failure, shorten};
@@ -38,6 +41,8 @@ pub struct Bridge {
     unanswered: BTreeSet<u64>,
     /// Why nothing can be asked any more.
     over: Option<String>,
+    /// Keys of entities that nothing reads, each once.
+    unread_keys: Vec<UnreadKey>,
 }
 
 /// Ends a bridge's child from another thread, for instance when the user interrupts. A call that waits for an answer
@@ -84,7 +89,8 @@ impl Bridge {
         let (program, args) = words.split_first().ok_or_else(|| wrong("names no program"))?;
         let not_started = |error: std::io::Error| {
             let (program, message, kind) = (program.clone(), error.to_string(), error.kind());
-            BridgeError::new(command_line, Failure::NotStarted { program, message, kind })
+            let command = command_line.to_owned();
+            BridgeError::new(command_line, Failure::NotStarted { program, message, kind, command })
         };
         let mut command = Command::new(program);
         command.args(args).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
@@ -101,6 +107,7 @@ impl Bridge {
             last_id: 0,
             unanswered: BTreeSet::new(),
             over: None,
+            unread_keys: Vec::new(),
         };
         started(bridge.stopper());
         bridge.hello()?;
@@ -233,8 +240,23 @@ impl Bridge {
         let op = body.op();
         let (sent, Line { mut answer, text }) = self.ask(body)?;
         match answer.state.take() {
-            Some(scene) => Ok((scene, answer)),
+            Some(scene) => {
+                // Entities are written alike in every state: what is answered to actions is not read twice.
+                if op != "act" {
+                    self.note_unread_keys(&text);
+                }
+                Ok((scene, answer))
+            }
             None => Err(self.error(Failure::Missing { op, field: "state" }, Some(&sent), Some(&text))),
+        }
+    }
+
+    fn note_unread_keys(&mut self, text: &[u8]) {
+        let found = std::str::from_utf8(text).map(unread_keys_of_answer).unwrap_or_default();
+        for key in found {
+            if !self.unread_keys.iter().any(|known| known.key == key.key) {
+                self.unread_keys.push(key);
+            }
         }
     }
 
@@ -276,6 +298,10 @@ impl World for Bridge {
 
     fn instance(&self) -> Option<Symbol> {
         self.instance.clone()
+    }
+
+    fn unread_keys(&self) -> &[UnreadKey] {
+        &self.unread_keys
     }
 
     fn reset(&mut self, reset: &Reset) -> Result<Scene, WorldError> {

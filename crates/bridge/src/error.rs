@@ -7,6 +7,8 @@ use std::time::Duration;
 use thiserror::Error;
 use typelift_world::{LINE_LIMIT, PROTOCOL, WorldError};
 
+use crate::shell::shell_hint;
+
 /// Characters of a message that are shown.
 const SHOWN: usize = 200;
 
@@ -30,6 +32,8 @@ pub enum Failure {
         message: String,
         /// The kind of reason.
         kind: io::ErrorKind,
+        /// The command line.
+        command: String,
     },
     /// It ended.
     #[error("it ended by itself ({}) when it was to answer `{op}`", shown_status(*.status))]
@@ -123,7 +127,8 @@ pub struct BridgeError {
     pub sent: Option<String>,
     /// What came back, shortened.
     pub came_back: Option<String>,
-    /// The last lines that it wrote to its standard error, if it ended or hung.
+    /// The last lines that it wrote to its standard error, if it ended or hung. The text of the error leaves them out: who
+    /// started it was told each line as it came.
     pub stderr: Vec<String>,
 }
 
@@ -141,7 +146,9 @@ impl BridgeError {
     /// What to do about it, if that is known.
     pub fn hint(&self) -> Option<String> {
         match &*self.failure {
-            Failure::NotStarted { program, kind, .. } => not_started_hint(program, *kind),
+            Failure::NotStarted { program, kind, command, .. } => {
+                shell_hint(command).or_else(|| not_started_hint(program, *kind))
+            }
             Failure::NotJson { .. } => Some(
                 "Its standard output is for answers only, one a line; what it wants to tell goes to standard error."
                     .to_owned(),
@@ -166,9 +173,6 @@ impl BridgeError {
         }
         if let Some(came_back) = &self.came_back {
             line("came back: ", came_back);
-        }
-        for said in &self.stderr {
-            line("it wrote: ", said);
         }
         text
     }
@@ -256,8 +260,8 @@ mod tests {
         };
         assert_eq!(
             WorldError::from(error).to_string(),
-            "environment shop: it did not answer `hello` within 2.5 s\n  sent: {}\n  came back: x\n  it wrote: \
-             Traceback\n  Does it read requests from its standard input, and flush its standard output?"
+            "environment shop: it did not answer `hello` within 2.5 s\n  sent: {}\n  came back: x\n  \
+             Does it read requests from its standard input, and flush its standard output?"
         );
     }
 }

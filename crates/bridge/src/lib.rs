@@ -34,6 +34,7 @@ mod options;
 mod pipes;
 mod planner_command;
 mod process;
+mod shell;
 
 pub use bridge::{Bridge, Stopper};
 pub use error::{BridgeError, Failure};

@@ -17,6 +17,7 @@ use typelift_plan::{ExternalFailure, ExternalPlanner, Outcome, PlanDefect, StepD
 
 use crate::error::shorten;
 use crate::process::Process;
+use crate::shell::shell_hint;
 
 /// How long a planner may take to end when it is asked to.
 const GRACE: Duration = Duration::from_secs(1);
@@ -51,6 +52,8 @@ const LOCK: &str = ".lock";
 /// `{plan}.1`, `{plan}.2`, …, or from what it left beside the problem, `sas_plan` or `problem.pddl.soln`.
 #[derive(Debug, Clone)]
 pub struct PlannerCommand {
+    /// As it was given.
+    command_line: String,
     words: Vec<String>,
     level: Level,
 }
@@ -100,7 +103,8 @@ impl PlannerCommand {
             Ok(path) if word.contains('/') && path.exists() => path.to_string_lossy().into_owned(),
             _ => word,
         };
-        Ok(Self { words: words.into_iter().map(here).collect(), level })
+        let command_line = command_line.to_owned();
+        Ok(Self { command_line, words: words.into_iter().map(here).collect(), level })
     }
 
     fn program(&self) -> String {
@@ -182,6 +186,7 @@ impl ExternalPlanner for PlannerCommand {
         let process = self.start(&exchange).map_err(|error| ExternalFailure::NotStarted {
             program: self.words[0].clone(),
             reason: error.to_string(),
+            hint: shell_hint(&self.command_line),
         })?;
         let mut stopped = None;
         while !process.wait(INTERVAL) {

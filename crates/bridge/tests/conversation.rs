@@ -63,7 +63,7 @@ fn standard_error_is_passed_on_with_a_name() {
     let script = "echo starting >&2; hello; ask; echo again >&2; printf 'no end of line' >&2; sleep 5";
     let (mut bridge, said) = start(&sh(script), hasty()).expect("started");
     let error = bridge.observe().expect_err("silent").to_string();
-    assert!(error.contains("\n  it wrote: starting\n  it wrote: again"), "{error}");
+    assert!(!error.contains("starting"), "it was told as it came: {error}");
     drop(bridge);
     // Whether its first line is read before its name was is a matter of chance.
     let said: Vec<String> = said.iter().map(|line| line.replace("[sh] ", "[shop] ")).collect();

@@ -98,7 +98,7 @@ impl Demo {
 
     /// A broken cutboard, without setting the kitchen back.
     fn repair(&self, out: &mut impl Write, model: &Arc<ActionModel>, fault: &KitchenTask) -> Result<bool, Failure> {
-        writeln!(out, "\n{HEAD}Broken{HEAD:#}: the cutboard no longer cuts, and nothing says so")?;
+        writeln!(out, "\n{HEAD}Broken{HEAD:#}: the cutboard no longer cuts, and no state tells")?;
         let mut lines = Lines(Vec::new());
         let (account, kitchen) = self.act(model, fault, &mut lines)?;
         for line in lines.0 {

@@ -111,7 +111,13 @@ impl From<ProposeError> for Failure {
             ProposeError::External(ExternalFailure::UnusablePlan { .. }) | ProposeError::ExternalPlan { .. } => {
                 Self::new(Exit::InvalidPlan, error)
             }
-            ProposeError::External(failure) => Self::new(Exit::Planner, format!("the planner failed: {failure}")),
+            ProposeError::External(failure) => {
+                let failed = Self::new(Exit::Planner, format!("the planner failed: {failure}"));
+                match failure {
+                    ExternalFailure::NotStarted { hint: Some(hint), .. } => failed.with_hint(hint),
+                    _ => failed,
+                }
+            }
             ProposeError::Invalid { .. } => Self::new(Exit::Internal, format!("{error}; this is a defect of typelift")),
         }
     }
@@ -130,9 +136,9 @@ impl From<RunError> for Failure {
             RunError::Record(error) => error.into(),
             RunError::State(error) => {
                 let hint = match &error.kind {
-                    ParseErrorKind::UnknownType { .. } => {
-                        Some("A type that the model does not know can be added with --types.")
-                    }
+                    ParseErrorKind::UnknownType { .. } => Some(
+                        "The model does not know it: is it the right model? --types FILE adds types to a learned one.",
+                    ),
                     ParseErrorKind::TwoSources { .. } => {
                         Some("Rename one of the two; or learn with --ignore, which leaves an attribute out.")
                     }

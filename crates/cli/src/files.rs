@@ -2,9 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use typelift::model::{ActionModel, LearnedModel, ModelFileError, ParseConfig, Symbol, Task};
+use typelift::model::{ActionModel, Hierarchy, LearnedModel, ModelFileError, ParseConfig, Symbol, Task, did_you_mean};
 use typelift::world::{
-    DomainFile, FileError, Parser, TaskFile, is_pddl, model_problem_from_text, read_text, read_types,
+    DomainFile, FileError, ParseError, ParseErrorKind, Parser, TaskError, TaskFile, is_pddl, model_problem_from_text,
+    read_text, read_types,
 };
 
 use crate::failure::{Failure, NOT_AS_WRITTEN};
@@ -127,16 +128,37 @@ impl ModelInput {
         match self.task_from_text(path, text, quiet)? {
             TaskInput::Problem(problem) => Ok(*problem),
             TaskInput::File(file) => {
+                let is_given = self.is_given();
                 let (model, parse) = match self {
                     Self::Learned(learned) => (learned.model, learned.parse),
                     Self::Given(domain) => (domain.model, ParseConfig::default()),
                 };
                 let mut parser = Parser::new(model.hierarchy.clone(), parse).knowing(&model.predicates);
-                let task = file.task(&mut parser, &model.predicates).map_err(|error| error.in_file(path, &parser))?;
+                let task = file.task(&mut parser, &model.predicates);
+                let task = task.map_err(|error| not_of_model(&error, path, &parser, is_given))?;
                 Ok((model, task))
             }
         }
     }
+}
+
+/// Why a task is none for a model. One with a type that the model does not know was probably written for another.
+fn not_of_model(error: &TaskError, path: &Path, parser: &Parser, is_given: bool) -> Failure {
+    let told = Failure::from(error.in_file(path, parser));
+    let TaskError::State(ParseError { entity, kind: ParseErrorKind::UnknownType { ty, .. } }) = error else {
+        return told;
+    };
+    let entity = entity.as_ref().map(|entity| format!("entity {entity}: ")).unwrap_or_default();
+    let message = format!("in the state: {entity}the model does not know the type `{ty}`");
+    Failure::bad_input(message).in_file(path).with_hint(about_unknown_type(ty, parser.hierarchy(), is_given))
+}
+
+/// What to do about a type that a model does not know.
+pub(crate) fn about_unknown_type(ty: &Symbol, hierarchy: &Hierarchy, is_given: bool) -> String {
+    let near = did_you_mean(ty.as_str(), hierarchy.types().map(|ty| hierarchy.name(ty)));
+    let near = near.map(|question| format!("{question} Or is")).unwrap_or_else(|| "Is".to_owned());
+    let more = if is_given { "" } else { " --types FILE adds types to a learned model." };
+    format!("{near} it another model that this belongs to?{more}")
 }
 
 /// Says what is probably not meant in files; not all of it where there is much.

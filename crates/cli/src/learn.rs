@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use typelift::learn::{self, Actor, LearnError, Options, evidence_of, learn_evidence};
 use typelift::model::{
@@ -40,7 +40,7 @@ pub(crate) struct Learn {
     #[arg(required_unless_present = "into", value_name = "TRACE")]
     traces: Vec<PathBuf>,
     /// The type hierarchy: PDDL (:types …), a PDDL domain, whose name and constants are taken too, or JSON {"child": "parent"}
-    #[arg(long, value_name = "FILE", required_unless_present = "into")]
+    #[arg(long, value_name = "FILE")]
     types: Option<PathBuf>,
     /// Add to this model, as if all had been learned at once; its types and what it ignores hold
     #[arg(long, value_name = "MODEL")]
@@ -98,13 +98,19 @@ struct Learned {
 
 impl Learn {
     pub(crate) fn run(&self, clock: Clock, quiet: bool) -> Result<Exit, Failure> {
+        if self.types.is_none() && self.into.is_none() {
+            let hint = "Or say which model to add to, with --into MODEL: then its types hold.";
+            return Err(Failure::new(Exit::Usage, "no types: say --types FILE").with_hint(hint));
+        }
         let output = self.output.as_ref().or(self.into.as_ref()).filter(|_| !self.dry_run);
         keep_inputs(output.map(|path| Output::File(path)), self.inputs())?;
         let learned = within(clock, self.limits, || self.learn())?;
         let Learned { model, report, notes, .. } = &learned;
         // First, so that the model is written even if standard output is closed.
-        if let Some(path) = output {
-            write_file(path, model.to_json()?.as_bytes())?;
+        let text = model.to_json()?;
+        let stays = self.output.is_none() && output.is_some_and(|path| is_written(path, &text));
+        if let Some(path) = output.filter(|_| !stays) {
+            write_file(path, text.as_bytes())?;
         }
         let mut out = anstream::stdout().lock();
         if self.json {
@@ -116,8 +122,10 @@ impl Learn {
         }
         out.flush()?;
         if !quiet {
-            if let Some(path) = output {
-                anstream::eprintln!("wrote {}", path.display());
+            match output {
+                Some(path) if stays => anstream::eprintln!("{} stays as it is: there is nothing new", path.display()),
+                Some(path) => anstream::eprintln!("wrote {}", path.display()),
+                None => {}
             }
             self.warn(&learned);
         }
@@ -287,6 +295,11 @@ impl Learn {
             "{HINT}hint{HINT:#}: what changes by itself keeps alike actions apart; without {predicate} there would be {fewer} kinds of effect instead of {all}: if it flickers, give it hysteresis; if it does not matter, --ignore {source}"
         );
     }
+}
+
+/// Whether a file has this content already.
+fn is_written(path: &Path, text: &str) -> bool {
+    std::fs::read(path).is_ok_and(|written| written == text.as_bytes())
 }
 
 /// The predicate without which there would be the fewest kinds of effect, and how many those would be, and are; none if

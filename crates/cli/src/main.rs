@@ -36,6 +36,7 @@ mod style;
 mod validate;
 mod watchdog;
 
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
@@ -52,9 +53,12 @@ struct Arguments {
     #[command(subcommand)]
     command: Command,
     /// Say nothing on standard error but errors
-    #[arg(long, short, global = true)]
+    #[arg(long, short, global = true, display_order = LAST_OPTION)]
     quiet: bool,
 }
+
+/// The place of what every command has: behind its own options.
+const LAST_OPTION: usize = 900;
 
 #[derive(Debug, Subcommand)]
 enum Command {
@@ -76,7 +80,7 @@ enum Command {
 
 fn main() -> ExitCode {
     let clock = Clock::start();
-    let arguments = match Arguments::try_parse() {
+    let arguments = match Arguments::try_parse_from(with_help_last(std::env::args_os())) {
         Ok(arguments) => arguments,
         Err(error) => {
             // Help and version are no errors. If printing fails, that cannot be printed either.
@@ -102,4 +106,14 @@ fn main() -> ExitCode {
         Command::Man(man) => man.run(quiet),
     };
     ended.unwrap_or_else(|failure: Failure| failure.report()).into()
+}
+
+/// The words of the command line, `typelift help plan` as `typelift plan --help`.
+fn with_help_last(words: impl Iterator<Item = OsString>) -> Vec<OsString> {
+    let mut words: Vec<OsString> = words.collect();
+    if words.get(1).is_some_and(|word| word == "help") {
+        words.remove(1);
+        words.push("--help".into());
+    }
+    words
 }

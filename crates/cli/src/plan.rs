@@ -103,7 +103,9 @@ impl Plan {
                 // What is found is safe, however the search ends.
                 self.write_plans(output.as_deref(), &plans, &proposal.model, &task, &interrupt)?;
             }
-            if !self.planning.json {
+            if plan.is_empty() && !self.planning.json {
+                say_that_it_holds(quiet);
+            } else if !self.planning.json {
                 let took = clock.elapsed() - read;
                 if let Err(failure) = self.print(&mut out, number, &plan, &proposal, &model, took) {
                     // Standard output is closed; the file is wanted all the same.
@@ -330,6 +332,13 @@ impl Plan {
                 anstream::eprintln!("{HINT}hint{HINT:#}: {advice}");
             }
         }
+    }
+}
+
+/// Says that nothing is to be done.
+fn say_that_it_holds(quiet: bool) {
+    if !quiet {
+        anstream::eprintln!("the goal holds already: nothing is to be done");
     }
 }
 

@@ -47,6 +47,11 @@ impl ModelArguments {
         self.types.is_none() && !self.imagine
     }
 
+    /// The same, with actions imagined.
+    pub(crate) fn imagining(&self) -> Self {
+        Self { imagine: true, ..self.clone() }
+    }
+
     /// The files that are read.
     pub(crate) fn files(&self) -> impl Iterator<Item = &PathBuf> {
         [&self.model].into_iter().chain(&self.types)

@@ -6,10 +6,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
+use clap::ValueEnum;
 use typelift::agent::{Command, Ending, Episode, EpisodeError, Experience, Input, Options, RunError, run};
 use typelift::model::{ActionModel, ParseConfig, Plan, State, Stop, Symbol, Task};
 use typelift::words::{AccountView, BrokenOffView, summary};
-use typelift::world::{FileError, Parser, Recorder, Reset, Scene, TaskFile, TraceHeader, World};
+use typelift::world::{FileError, Parser, Recorder, Reset, Scene, TaskFile, TraceHeader, UnreadKey, World};
 use typelift_kitchen::Kitchen;
 
 use crate::confirm::{Which, confirm};
@@ -22,7 +23,7 @@ use crate::narrate::Narrator;
 use crate::overwriting::{Output, keep_inputs};
 use crate::planning_options::PlanningOptions;
 use crate::quantities::parse_whole;
-use crate::style::{HEAD, HINT, painted};
+use crate::style::{HEAD, HINT, WARNING, painted};
 
 /// Expansions of one search, unless the user says otherwise: an agent that acts must not think for ever.
 const EXPANSIONS: u64 = 200_000;
@@ -106,11 +107,14 @@ struct Session<'a> {
     world: Box<dyn World>,
     narrator: Narrator,
     experience: Experience,
+    /// How many keys that nothing reads were told of.
+    told_keys: usize,
 }
 
 impl Run {
     pub(crate) fn run(&self, clock: Clock, quiet: bool) -> Result<Exit, Failure> {
         let interrupt = Interrupt::install()?;
+        self.check_confirm()?;
         let inputs = self.tasks.iter().chain(self.planning.model.files());
         keep_inputs(self.events.as_deref().map(Output::File), inputs)?;
         let input = self.planning.model.read()?;
@@ -136,7 +140,8 @@ impl Run {
         }
         let narrator = Narrator::new(!quiet && !self.planning.json, events);
         let (interrupt, experience) = (&interrupt, Experience::new());
-        let mut session = Session { clock, interrupt, quiet, parse, options, world, narrator, experience };
+        let mut session =
+            Session { clock, interrupt, quiet, parse, options, world, narrator, experience, told_keys: 0 };
         let mut all_solved = true;
         for to_do in tasks {
             let Some(ending) = self.carry_out(to_do, &mut session)? else { return Ok(Exit::Interrupted) };
@@ -156,7 +161,7 @@ impl Run {
 
     /// Carries out a task and tells of it; how it ended, or nothing if it was interrupted and the environment ended.
     fn carry_out(&self, to_do: ToDo<'_>, session: &mut Session<'_>) -> Result<Option<Ending>, Failure> {
-        let Session { clock, interrupt, quiet, parse, options, world, narrator, experience } = session;
+        let Session { clock, interrupt, quiet, parse, options, world, narrator, experience, told_keys } = session;
         let ToDo { path, model, reset, task } = to_do;
         let name = task_name(path);
         if narrator.aloud {
@@ -176,6 +181,10 @@ impl Run {
         let mut ran = run(&mut episode, &mut **world, &reset, &mut parser, &mut confirm, narrator, recorded);
         for file in recorder.iter().flat_map(Recorder::files).filter(|_| !*quiet) {
             anstream::eprintln!("recorded {}", file.display());
+        }
+        if !*quiet {
+            warn_of_unread_keys(&world.unread_keys()[*told_keys..]);
+            *told_keys = world.unread_keys().len();
         }
         let was_interrupted = match &ran {
             Ok(_) => false,
@@ -211,6 +220,19 @@ impl Run {
             anstream::eprintln!("{HINT}hint{HINT:#}: {advice}");
         }
         Ok((!was_interrupted).then_some(account.ending))
+    }
+
+    /// `--confirm all` names a file: the choice stands behind an equals sign.
+    fn check_confirm(&self) -> Result<(), Failure> {
+        let is_choice = |path: &&PathBuf| {
+            let word = path.to_str().unwrap_or_default();
+            Which::from_str(word, false).is_ok() && !path.exists()
+        };
+        let mut files = self.planning.model.files().chain(&self.tasks);
+        let Some(word) = files.find(is_choice).filter(|_| self.confirm.is_some()) else { return Ok(()) };
+        let word = word.display();
+        let failure = Failure::new(Exit::Usage, format!("--confirm {word}: `{word}` is taken for a file here"));
+        Err(failure.with_hint(format!("Write --confirm={word}.")))
     }
 
     fn read_tasks<'a>(&'a self, input: &ModelInput, quiet: bool) -> Result<Vec<ToDo<'a>>, Failure> {
@@ -264,5 +286,15 @@ impl Run {
         }
         let scenario = serde_json::json!({ "problem": path.display().to_string() });
         Ok(Reset { seed: self.seed.unwrap_or(0), scenario: Some(scenario) })
+    }
+}
+
+/// Says which keys of entities nothing reads.
+fn warn_of_unread_keys(keys: &[UnreadKey]) {
+    for UnreadKey { entity, key, near } in keys {
+        anstream::eprintln!(
+            "{WARNING}warning{WARNING:#}: the environment's state: entity {entity}: `{key}` is not read"
+        );
+        anstream::eprintln!("{HINT}hint{HINT:#}: Did you mean `{near}`?");
     }
 }

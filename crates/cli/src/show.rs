@@ -22,7 +22,7 @@ use crate::style::described;
   typelift show kitchen.json --predicates
   typelift show kitchen.json --pddl > kitchen.pddl")]
 pub(crate) struct Show {
-    /// The model, as `learn` wrote it
+    /// The model, as `learn` wrote it, or a PDDL domain
     model: PathBuf,
     /// Show one action with all of its evidence
     #[arg(long, value_name = "NAME", conflicts_with = "pddl")]

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 use typelift::check::{Invalid, validate, validate_stated};
+use typelift::model::{ActionModel, Budget, Task};
 use typelift::pddl::{PddlError, PlanLine, read_plan};
 use typelift::world::{FileError, StatedProblem, is_pddl, read_text};
 
@@ -13,7 +14,7 @@ use crate::failure::Failure;
 use crate::limits::{Clock, Interrupt, Limits};
 use crate::plan_file::calls_of_plan;
 use crate::planning_options::ModelArguments;
-use crate::style::{BAD, GOOD};
+use crate::style::{BAD, GOOD, HINT};
 use crate::watchdog::within;
 
 /// Say whether plans are valid, and what they cost
@@ -99,8 +100,12 @@ impl Validate {
         if self.model.is_as_stated() && is_pddl(&model) && is_pddl(&task) {
             return self.check_stated(model, task);
         }
-        let (model, task) = self.model.input_of(model)?.planning_task_from_text(&self.task, &task, quiet)?;
+        let input = self.model.input_of(model)?;
+        let is_given = input.is_given();
+        let (model, task) = input.planning_task_from_text(&self.task, &task, quiet)?;
         let budget = self.limits.budget(clock, &Interrupt::default());
+        let plans = self.read_plans()?;
+        let learned = Some(&model).filter(|_| !self.model.imagine && !is_given).cloned();
         let model = self.model.as_used(model, Some(&task), &budget)?;
         let check = |(plan, text, lines): PlanFile| -> Result<_, Failure> {
             let calls = calls_of_plan(&lines, &model, &task.init)?;
@@ -110,7 +115,30 @@ impl Validate {
             };
             Ok(Checked { plan, text, lines, steps, value, invalid })
         };
-        self.read_plans()?.into_iter().map(check).collect()
+        let checked: Vec<Checked> = plans.into_iter().map(check).collect::<Result<_, _>>()?;
+        if let (Some(learned), false) = (learned, quiet)
+            && checked.iter().any(|plan| plan.invalid.is_some())
+        {
+            self.hint_at_imagining(learned, &task, &checked, &budget)?;
+        }
+        Ok(checked)
+    }
+
+    /// Says that a plan is valid with imagined actions, if one of these is.
+    fn hint_at_imagining(
+        &self,
+        learned: ActionModel,
+        task: &Task,
+        checked: &[Checked],
+        budget: &Budget,
+    ) -> Result<(), Failure> {
+        let model = self.model.imagining().as_used(learned, Some(task), budget)?;
+        for Checked { plan, lines, .. } in checked.iter().filter(|plan| plan.invalid.is_some()) {
+            if validate(&model, task, &calls_of_plan(lines, &model, &task.init)?).is_ok() {
+                anstream::eprintln!("{HINT}hint{HINT:#}: {plan} is valid with imagined actions: --imagine allows them");
+            }
+        }
+        Ok(())
     }
 
     /// The same by what the texts of a domain and a problem state.

@@ -194,9 +194,15 @@ mod tests {
     fn what_cannot_be_set_up_is_refused() {
         let state = serde_json::to_value(build(&json!({})).expect("a room").snapshot()).expect("JSON");
         let refused = [
-            (json!({"itmes": []}), "unknown field `itmes`, expected one of `state`, `items`, `filler`, `broken`"),
-            (json!({"filler": "some"}), "unknown word `some`, expected one of `demonstrated`, `novel`, `none`"),
-            (json!("burger"), "the scenario is not understood: invalid type: string \"burger\""),
+            (
+                json!({"itmes": []}),
+                "expected one of `state`, `items`, `filler`, `broken`, found the unknown field `itmes`",
+            ),
+            (
+                json!({"filler": "some"}),
+                "expected one of `demonstrated`, `novel`, `none`, found the unknown word `some`",
+            ),
+            (json!("burger"), "the scenario is not understood: expected an object, found the string \"burger\""),
             (json!({"items": ["leek"]}), "the scenario asks for the item `leek`; there are plate, lettuce, tomato"),
             (json!({"items": ["lettuce_1"]}), "the scenario asks for the item `lettuce_1`"),
             (json!({"items": vec!["apple"; 15]}), "the scenario asks for 15 items, and there is room for 14"),
@@ -204,7 +210,7 @@ mod tests {
             (json!({"broken": ["counter_1"]}), "breaks `counter_1`, which is none of the room's tools"),
             (json!({"state": state, "items": ["plate"]}), "`items` and `filler` have no place beside it"),
             (json!({"state": {"entities": []}}), "the scenario's state is not a kitchen: there is no agent"),
-            (json!({"state": {"objects": {}}}), "missing field `entities`"),
+            (json!({"state": {"objects": {}}}), "`entities` is missing"),
         ];
         for (scenario, message) in refused {
             let error = build(&scenario).expect_err(message).to_string();

@@ -20,12 +20,41 @@ fn message(error: &serde_json::Error) -> String {
         _ if error.is_syntax() => format!("this is not JSON: {text}"),
         _ if text.starts_with("data did not match any variant") => "this is nothing that may stand here".to_owned(),
         _ => {
-            let text = text.replacen("unknown variant `", "unknown word `", 1);
+            let text = text.replacen("unknown variant `", "the unknown word `", 1);
+            let text = text.replacen("unknown field `", "the unknown field `", 1);
             match text.rsplit_once(", expected ") {
-                Some((found, expected)) => format!("{found}, expected {}", in_words(expected)),
-                None => text,
+                Some((found, expected)) => format!("expected {}, found {}", in_words(expected), found_in_words(found)),
+                None => of_a_field(&text),
             }
         }
+    }
+}
+
+/// What is said of a field that is not there, or there twice.
+fn of_a_field(text: &str) -> String {
+    if let Some(field) = text.strip_prefix("missing field ") {
+        return format!("{field} is missing");
+    }
+    text.strip_prefix("duplicate field ").map_or(text.to_owned(), |field| format!("{field} stands here twice"))
+}
+
+/// What was found instead of what was expected, as JSON calls it.
+fn found_in_words(found: &str) -> String {
+    if let Some(length) = found.strip_prefix("invalid length ") {
+        return format!("a list of {length}");
+    }
+    let kinds = ["invalid type: ", "invalid value: "];
+    let Some(found) = kinds.iter().find_map(|kind| found.strip_prefix(kind)) else { return found.to_owned() };
+    let quoted = |kind: &str| Some(found.strip_prefix(kind)?.trim_matches('`'));
+    match found {
+        "sequence" => "a list".to_owned(),
+        "map" => "an object".to_owned(),
+        "unit value" => "null".to_owned(),
+        _ if found.starts_with("string ") => format!("the {found}"),
+        _ => match quoted("integer ").or_else(|| quoted("floating point ")) {
+            Some(number) => format!("the number {number}"),
+            None => quoted("boolean ").unwrap_or(found).to_owned(),
+        },
     }
 }
 
@@ -89,29 +118,29 @@ mod tests {
 
     #[test]
     fn no_name_of_a_struct_or_enum_is_told() {
-        assert_eq!(message_for::<Call>("1"), "invalid type: integer `1`, expected an object");
-        assert_eq!(message_for::<Call>("{}"), "missing field `name`");
-        assert_eq!(message_for::<Pair>("{}"), "invalid type: map, expected a list");
-        assert_eq!(message_for::<Pair>("[1]"), "invalid length 1, expected a list of 2");
-        assert_eq!(message_for::<Pair>("[1, true]"), "invalid type: boolean `true`, expected a whole number");
-        assert_eq!(message_for::<Way>("\"down\""), "unknown word `down`, expected `up`");
+        assert_eq!(message_for::<Call>("1"), "expected an object, found the number 1");
+        assert_eq!(message_for::<Call>("{}"), "`name` is missing");
+        assert_eq!(message_for::<Pair>("{}"), "expected a list, found an object");
+        assert_eq!(message_for::<Pair>("[1]"), "expected a list of 2, found a list of 1");
+        assert_eq!(message_for::<Pair>("[1, true]"), "expected a whole number, found true");
+        assert_eq!(message_for::<Way>("\"down\""), "expected `up`, found the unknown word `down`");
         let error = serde_json::from_value::<Way>(serde_json::json!([])).expect_err("a list");
-        assert_eq!(json_message(&error), "invalid type: sequence, expected a string or an object");
+        assert_eq!(json_message(&error), "expected a string or an object, found a list");
         assert_eq!(message_for::<Either>("3"), "this is nothing that may stand here");
-        assert_eq!(message_for::<bool>("3"), "invalid type: integer `3`, expected true or false");
+        assert_eq!(message_for::<bool>("3"), "expected true or false, found the number 3");
     }
 
     #[test]
     fn messages_name_no_rust_type() {
-        assert_eq!(message_for::<u64>("-1"), "invalid value: integer `-1`, expected a whole number, 0 or more");
+        assert_eq!(message_for::<u64>("-1"), "expected a whole number, 0 or more, found the number -1");
         assert_eq!(
             message_for::<f64>("\"1, expected u64\""),
-            "invalid type: string \"1, expected u64\", expected a number"
+            "expected a number, found the string \"1, expected u64\""
         );
         assert_eq!(message_for::<f64>("1e999"), "this number is too large");
         assert_eq!(message_for::<Vec<f64>>("[NaN]"), "this is not JSON: expected value");
-        assert_eq!(message_for::<Vec<f64>>("{}"), "invalid type: map, expected a list");
-        assert_eq!(message_for::<Vec<(u32, u32)>>("[[1]]"), "invalid length 1, expected a list of 2");
+        assert_eq!(message_for::<Vec<f64>>("{}"), "expected a list, found an object");
+        assert_eq!(message_for::<Vec<(u32, u32)>>("[[1]]"), "expected a list of 2, found a list of 1");
         assert_eq!(message_for::<Vec<f64>>("[1"), "the JSON text ends too early");
         assert_eq!(message_for::<Vec<f64>>("[1] 2"), "nothing may follow after the end of the JSON text");
         assert_eq!(message_for::<serde_json::Value>(&"[".repeat(1000)), "this is nested too deeply");

@@ -6,20 +6,21 @@ use crate::Symbol;
 const LONGEST: usize = 100;
 
 /// The name among `names` that differs least from `name`: in case only, or else in at most a third of its letters, or
-/// in one of two. Of several, the first. None for a very long name.
+/// in one of two; two neighbours that changed places are one difference. Of several, the first. None for a very long name.
 pub fn nearest<'a>(name: &str, names: impl IntoIterator<Item = &'a Symbol>) -> Option<&'a Symbol> {
-    let wanted: Vec<char> = name.to_lowercase().chars().collect();
-    let limit = (wanted.len() / 3).max(usize::from(wanted.len() > 1));
-    if wanted.len() > LONGEST {
+    let wanted = name.to_lowercase();
+    let length = wanted.chars().count();
+    let limit = (length / 3).max(usize::from(length > 1));
+    if length > LONGEST {
         return None;
     }
     names
         .into_iter()
         .filter(|candidate| candidate.as_str() != name)
         .filter_map(|candidate| {
-            let letters: Vec<char> = candidate.as_str().to_lowercase().chars().collect();
-            let close = letters.len().abs_diff(wanted.len()) <= limit;
-            let distance = if close { edit_distance(&wanted, &letters) } else { usize::MAX };
+            let other = candidate.as_str().to_lowercase();
+            let close = other.chars().count().abs_diff(length) <= limit;
+            let distance = if close { strsim::osa_distance(&wanted, &other) } else { usize::MAX };
             (distance <= limit).then_some((distance, candidate))
         })
         .min_by_key(|(distance, _)| *distance)
@@ -29,21 +30,6 @@ pub fn nearest<'a>(name: &str, names: impl IntoIterator<Item = &'a Symbol>) -> O
 /// ``Did you mean `x`?``, if there is a name near enough.
 pub fn did_you_mean<'a>(name: &str, names: impl IntoIterator<Item = &'a Symbol>) -> Option<String> {
     nearest(name, names).map(|near| format!("Did you mean `{near}`?"))
-}
-
-/// The number of letters to insert, remove or replace (Levenshtein).
-fn edit_distance(left: &[char], right: &[char]) -> usize {
-    let mut row: Vec<usize> = (0..=right.len()).collect();
-    for (i, a) in left.iter().enumerate() {
-        let mut diagonal = i;
-        row[0] = i + 1;
-        for (j, b) in right.iter().enumerate() {
-            let replaced = diagonal + usize::from(a != b);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(diagonal + 1).min(row[j] + 1);
-        }
-    }
-    row[right.len()]
 }
 
 #[cfg(test)]
@@ -57,6 +43,8 @@ mod tests {
         assert_eq!(near("letuce"), Some("lettuce"));
         assert_eq!(near("plate"), Some("Plate"));
         assert_eq!(near("fork"), None);
+        assert_eq!(nearest("gaol", &["format", "goal"].map(Symbol::new)).map(Symbol::as_str), Some("goal"));
+        assert_eq!(nearest("opne", &["close", "open"].map(Symbol::new)).map(Symbol::as_str), Some("open"));
         assert_eq!(near("tomato"), None);
         assert_eq!(near(""), None);
         assert_eq!(nearest("b", &["a", "B"].map(Symbol::new)).map(Symbol::as_str), Some("B"));

@@ -33,6 +33,8 @@ pub enum ExternalFailure {
         program: String,
         /// The system's reason.
         reason: String,
+        /// What to do about it, if that is known.
+        hint: Option<String>,
     },
     /// It ended and left neither a plan nor a word about why there is none.
     #[error("{program} {}{}", ended(*.status), indented(.last_words))]

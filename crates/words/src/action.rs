@@ -67,7 +67,8 @@ pub fn describe_action(action: &ActionSchema, model: &ActionModel, evidence: Opt
             text.row(label, conditional(effect, action, h));
         }
     }
-    if action.cost != Cost::UNIT {
+    // Where some action costs something else, that one costs 1 is worth saying too.
+    if model.actions.iter().any(|any| any.cost != Cost::UNIT) {
         let fixed = (action.cost.fixed > 0 || action.cost.functions.is_empty()).then(|| action.cost.fixed.to_string());
         let functions = action.cost.functions.iter().map(|f| written.atom(f));
         text.row("costs", [fixed.into_iter().chain(functions).collect::<Vec<_>>().join(" + ")]);

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserialize, DeserializeSeed, Deserializer, IntoDeserializer, MapAccess, Visitor};
-use typelift_model::{Symbol, did_you_mean};
+use typelift_model::{Symbol, nearest};
 
 use crate::{Entity, FileError};
 
@@ -100,6 +100,30 @@ impl Visitor<'_> for KeyVisitor {
     }
 }
 
+/// A key of an entity that nothing reads, though it is nearly one that is read.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct UnreadKey {
+    /// The entity.
+    pub entity: Symbol,
+    /// The key.
+    pub key: Symbol,
+    /// The key that may have been meant.
+    pub near: Symbol,
+}
+
+/// The keys of these entities that nothing reads and that were not seen before.
+pub(crate) fn unread_keys(entities: &[EntityLine], seen: &mut BTreeSet<Symbol>) -> Vec<UnreadKey> {
+    let mut found = Vec::new();
+    for EntityLine { entity, unread } in entities {
+        for key in unread.iter().filter(|key| seen.insert((*key).clone())) {
+            if let Some(near) = nearest(key.as_str(), &OPTIONAL.map(Symbol::new)) {
+                found.push(UnreadKey { entity: entity.id.clone(), key: key.clone(), near: near.clone() });
+            }
+        }
+    }
+    found
+}
+
 /// What is to be said of the keys that nothing reads in a file.
 #[derive(Debug, Default)]
 pub(crate) struct UnreadKeys {
@@ -110,13 +134,10 @@ pub(crate) struct UnreadKeys {
 impl UnreadKeys {
     /// Notes those of entities, each key where it is met first.
     pub(crate) fn note(&mut self, file: &Path, line: Option<usize>, entities: &[EntityLine]) {
-        for EntityLine { entity, unread } in entities {
-            for key in unread.iter().filter(|key| self.seen.insert((*key).clone())) {
-                let Some(question) = did_you_mean(key.as_str(), &OPTIONAL.map(Symbol::new)) else { continue };
-                let what = format!("entity {}: `{key}` is not read", entity.id);
-                let warning = line.map_or_else(|| FileError::new(file, &what), |l| FileError::at_line(file, l, &what));
-                self.warnings.push(warning.with_hint(question));
-            }
+        for UnreadKey { entity, key, near } in unread_keys(entities, &mut self.seen) {
+            let what = format!("entity {entity}: `{key}` is not read");
+            let warning = line.map_or_else(|| FileError::new(file, &what), |l| FileError::at_line(file, l, &what));
+            self.warnings.push(warning.with_hint(format!("Did you mean `{near}`?")));
         }
     }
 }

@@ -3,7 +3,7 @@
 use thiserror::Error;
 use typelift_model::{GroundCall, Symbol};
 
-use crate::Scene;
+use crate::{Scene, UnreadKey};
 
 /// How an environment is to be set up.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -123,6 +123,11 @@ pub trait World: Send {
     /// said of what would come of them.
     fn possible_calls(&self) -> Option<Vec<GroundCall>> {
         None
+    }
+
+    /// The keys of entities in what it reported so far that nothing reads, each once.
+    fn unread_keys(&self) -> &[UnreadKey] {
+        &[]
     }
 
     /// Ends it. Afterwards nothing is asked of it.

@@ -99,10 +99,14 @@ impl FileError {
         }
     }
 
-    /// An error of JSON text whose first line is line `first` of the file.
-    pub fn from_json(file: &Path, first: usize, error: &serde_json::Error) -> Self {
+    /// An error of the JSON `text`, whose first line is line `first` of the file: with the keys that lead to its place.
+    pub fn from_json(file: &Path, first: usize, text: &str, error: &serde_json::Error) -> Self {
         let line = first + error.line().max(1) - 1;
-        let at = Self::at_line(file, line, json::message(error));
+        let what = match json::place(text, error) {
+            Some(place) => format!("in `{place}`: {}", json::message(error)),
+            None => json::message(error),
+        };
+        let at = Self::at_line(file, line, what);
         if error.column() > 0 { at.with_column(error.column()) } else { at }
     }
 

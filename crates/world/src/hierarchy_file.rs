@@ -133,7 +133,7 @@ fn json_types(path: &Path, text: &str) -> Result<Vec<TypeEdge>, FileError> {
     #[serde(transparent)]
     struct Types(#[serde(deserialize_with = "json::pairs")] Vec<(Symbol, Parents)>);
     let Types(types) = serde_json::from_str(text)
-        .map_err(|error| FileError::from_json(path, 1, &error).with_hint(EXAMPLE.to_owned()))?;
+        .map_err(|error| FileError::from_json(path, 1, text, &error).with_hint(EXAMPLE.to_owned()))?;
     let mut spans = string_spans(text).into_iter();
     let mut edges: Vec<TypeEdge> = Vec::with_capacity(types.len());
     for (child, Parents(parents)) in types {
@@ -245,7 +245,7 @@ mod tests {
             ("", "types: the file is empty"),
             ("rod - piece", "types: this is neither PDDL types nor a JSON object of types"),
             ("{\"a\": \"b\",\n\"b\": \"a\"}", "types:2:2: the type hierarchy has a cycle: a - b - a"),
-            ("{\"a\": 1}", "types:1:7: invalid type: integer `1`, expected a string, or a list of strings"),
+            ("{\"a\": 1}", "types:1:7: in `a`: expected a string, or a list of strings, found the number 1"),
             ("{\"a\": \"b\"", "types:1:9: the JSON text ends too early"),
             ("{\"a\": \"two words\"}", "types:1:3: `two words` cannot be a name: it holds white space"),
             (r#"{"a\"\\": "b"}"#, "types:1:3: `a\"\\` cannot be a name: it holds one of ( ) , ; \""),

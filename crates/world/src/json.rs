@@ -18,6 +18,67 @@ pub(crate) fn hint(error: &serde_json::Error, text: &str) -> Option<String> {
     (starts(1) || starts(2)).then(|| "JSON has no NaN and no Infinity: leave the attribute out.".to_owned())
 }
 
+/// The keys that lead to an error's place in this text, as in `state.entities[3]`; none where it is about the whole, or
+/// where the text is not JSON. In time of the text before it.
+pub(crate) fn place(text: &str, error: &serde_json::Error) -> Option<String> {
+    if !error.is_data() {
+        return None;
+    }
+    let lines = text.split_inclusive('\n').take(error.line().checked_sub(1)?);
+    // The column is that of the byte read last: where that closes a list or an object, the error is about all of it.
+    let end = lines.map(str::len).sum::<usize>() + error.column();
+    let open = open_at(text.get(..end)?);
+    let mut place = String::new();
+    for level in open {
+        match level {
+            Open::Object(Some(key)) if place.is_empty() => place.push_str(key),
+            Open::Object(Some(key)) => place.extend([".", key]),
+            Open::Object(None) => {}
+            Open::List(index) => place.push_str(&format!("[{index}]")),
+        }
+    }
+    (!place.is_empty()).then_some(place)
+}
+
+/// What is open at a place of a JSON text.
+enum Open<'t> {
+    /// An object, and the key whose value stands here, if one does.
+    Object(Option<&'t str>),
+    /// A list, and how many of its values stand before.
+    List(usize),
+}
+
+/// What is open at the end of the beginning of a JSON text, outermost first.
+fn open_at(beginning: &str) -> Vec<Open<'_>> {
+    let mut open = Vec::new();
+    let mut word = "";
+    let mut bytes = beginning.bytes().enumerate();
+    while let Some((at, byte)) = bytes.next() {
+        match byte {
+            b'"' => {
+                let mut escaped = false;
+                let closes = |&(_, byte): &(usize, u8)| {
+                    let is_end = byte == b'"' && !escaped;
+                    escaped = byte == b'\\' && !escaped;
+                    is_end
+                };
+                let Some((end, _)) = bytes.find(closes) else { break };
+                word = beginning.get(at + 1..end).unwrap_or_default();
+            }
+            b'{' => open.push(Open::Object(None)),
+            b'[' => open.push(Open::List(0)),
+            b'}' | b']' => _ = open.pop(),
+            _ => match (byte, open.last_mut()) {
+                (b':', Some(Open::Object(key))) => *key = Some(word),
+                (b',', Some(Open::Object(key))) => *key = None,
+                (b',', Some(Open::List(index))) => *index += 1,
+                _ => {}
+            },
+        }
+    }
+    open
+}
+
 /// What a file of JSON says that it is: the `format` of its first value, other values after it or not.
 pub(crate) fn format(text: &str) -> Result<Option<String>, serde_json::Error> {
     #[derive(serde::Deserialize)]
@@ -89,5 +150,42 @@ impl<'de, V: Deserialize<'de>> Visitor<'de> for Pairs<V> {
             pairs.push((key, access.next_value()?));
         }
         Ok(pairs)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[derive(Debug, serde::Deserialize)]
+    #[allow(dead_code, reason = "they are never read")]
+    struct Shelf {
+        name: String,
+        books: Vec<Book>,
+    }
+
+    #[derive(Debug, serde::Deserialize)]
+    #[allow(dead_code, reason = "as above")]
+    struct Book {
+        title: String,
+        pages: Option<u64>,
+    }
+
+    #[test]
+    fn the_keys_to_a_place() {
+        let cases = [
+            (r#"{"name":1}"#, Some("name")),
+            (r#"{"name":[]}"#, Some("name")),
+            ("{\"name\":\"a\",\n \"books\":\"b\"}", Some("books")),
+            (r#"{"name":"a \", {[","books":[{"title":"t"},{"title":"u","pages":"many"}]}"#, Some("books[1].pages")),
+            ("{\"name\":\"a\",\"books\":[\n{\"title\":\"t\"},\n{\"pages\":3}]}", Some("books[1]")),
+            (r#"{"books":[]}"#, None),
+            ("[1", Some("[0]")),
+            ("7", None),
+        ];
+        for (text, expected) in cases {
+            let error = serde_json::from_str::<Shelf>(text).expect_err(text);
+            assert_eq!(place(text, &error).as_deref(), expected, "{text}: {error}");
+        }
     }
 }

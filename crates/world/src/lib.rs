@@ -32,6 +32,7 @@ mod verdict;
 
 pub use dataset::{Dataset, Record, Repeated, Trace, TraceAction, TraceHeader, Transition};
 pub use dataset_file::{any_trace_from, dataset_from, demonstrations_at, read_any_trace, read_dataset};
+pub use entity_line::UnreadKey;
 pub use environment::{Acted, Reset, World, WorldError, instance_of};
 pub use file_error::FileError;
 pub use goal_literals::WrittenGoal;
@@ -41,7 +42,7 @@ pub use line_reader::LINE_LIMIT;
 pub use object_types::ObjectTypes;
 pub use parse::{ParseError, ParseErrorKind, Parser};
 pub use pddl_file::{DomainFile, StatedProblem, is_pddl, model_problem_from_text};
-pub use protocol::{Answer, PROTOCOL, Request, RequestBody};
+pub use protocol::{Answer, PROTOCOL, Request, RequestBody, unread_keys_of_answer};
 pub use recorder::Recorder;
 pub use recording::Recording;
 pub use snapshot::{Entity, Relation, Scene, Snapshot, Value};

@@ -150,7 +150,7 @@ fn json_objects(path: &Path, text: &str) -> Result<Types, FileError> {
     #[derive(serde::Deserialize)]
     #[serde(transparent)]
     struct Objects(#[serde(deserialize_with = "json::distinct_map")] Types);
-    let Objects(objects) = serde_json::from_str(text).map_err(|error| FileError::from_json(path, 1, &error))?;
+    let Objects(objects) = serde_json::from_str(text).map_err(|error| FileError::from_json(path, 1, text, &error))?;
     let lower = |name: &Symbol| Symbol::from(name.as_str().to_ascii_lowercase());
     let mut types = Types::new();
     for (name, ty) in &objects {

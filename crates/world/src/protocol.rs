@@ -2,10 +2,14 @@
 //!
 //! Each request carries an `id` that its answer echoes. An `act` is answered when the world has settled.
 
+use std::collections::BTreeSet;
+
 use serde::{Deserialize, Serialize};
 use typelift_model::{GroundCall, Symbol};
 
 use crate::Scene;
+use crate::entity_line::{UnreadKey, unread_keys};
+use crate::trace_line::SceneLine;
 
 /// The protocol's name and version.
 pub const PROTOCOL: &str = "env/1";
@@ -96,4 +100,15 @@ pub struct Answer {
     /// To `act`: why not.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
+}
+
+/// The keys that nothing reads in the state of an answer of `env/1`, each where it is met first; none where the text is no
+/// such answer. In time of reading it.
+pub fn unread_keys_of_answer(text: &str) -> Vec<UnreadKey> {
+    #[derive(Deserialize)]
+    struct Answered {
+        state: Option<SceneLine>,
+    }
+    let Ok(Answered { state: Some(state) }) = serde_json::from_str(text) else { return Vec::new() };
+    unread_keys(state.entities(), &mut BTreeSet::new())
 }

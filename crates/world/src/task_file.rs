@@ -79,7 +79,7 @@ impl TaskFile {
         }
         let json = |error: serde_json::Error| {
             let hint = json::hint(&error, text);
-            FileError::from_json(name, 1, &error).with_hint(hint)
+            FileError::from_json(name, 1, text, &error).with_hint(hint)
         };
         match json::format(text).map_err(json)? {
             None => {

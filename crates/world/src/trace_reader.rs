@@ -245,7 +245,10 @@ fn malformed(path: &Path, line: &Line<'_>, error: &serde_json::Error) -> FileErr
             ("the last line is incomplete".to_owned(), Some(hint.to_owned()))
         }
         (true, true) => ("this line ends too early".to_owned(), None),
-        (false, _) => (json::message(error), json::hint(error, line.text)),
+        (false, _) => {
+            let told = FileError::from_json(path, line.number, line.text, error);
+            return told.with_hint(json::hint(error, line.text));
+        }
     };
-    FileError { what, hint, ..FileError::from_json(path, line.number, error) }
+    FileError { what, hint, ..FileError::from_json(path, line.number, line.text, error) }
 }

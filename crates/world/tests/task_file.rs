@@ -110,16 +110,16 @@ fn what_is_refused() {
         ("{\"format\":\"task/1\"}", "task.json: the task has no `goal`"),
         (
             "{\"format\":\"task/1\",\n \"goal\":[\"free(a)\",\n  \"free(a\"]}",
-            "task.json:3:11: `free(a` is not an atom of the form predicate(entity,entity)",
+            "task.json:3:11: in `goal`: `free(a` is not an atom of the form predicate(entity,entity)",
         ),
         (r#"{"format":"task/1","goal":["not (on(a))"]}"#, NOT_AN_ATOM),
         (
             "{\"format\":\"task/1\",\n \"goal\":[\"free(a)\",\n  \"not free(a)\"\n ]}",
-            "task.json:4:2: the goal contradicts itself: it has `free(a)` and `not free(a)`",
+            "task.json:4:2: in `goal`: the goal contradicts itself: it has `free(a)` and `not free(a)`",
         ),
         (
             r#"{"format":"task/1","goal":["not free(a)","free( a )"]}"#,
-            "task.json:1:53: the goal contradicts itself: it has `free(a)` and `not free(a)`",
+            "task.json:1:53: in `goal`: the goal contradicts itself: it has `free(a)` and `not free(a)`",
         ),
         ("{\"format\":\"task/1\",\n \"goal\":[", "task.json:2:9: the JSON text ends too early"),
         (r#"{"format":"task/1","goal":[],"state":{}}"#, "task.json: this state has neither `entities` nor `objects`"),
@@ -128,7 +128,8 @@ fn what_is_refused() {
     }
 }
 
-const NOT_AN_ATOM: &str = "task.json:1:41: `not (on(a))` is not an atom of the form predicate(entity,entity)";
+const NOT_AN_ATOM: &str =
+    "task.json:1:41: in `goal`: `not (on(a))` is not an atom of the form predicate(entity,entity)";
 
 #[test]
 fn a_goal_is_written_as_a_list_of_texts() {

@@ -60,8 +60,8 @@ fn what_an_agent_meant_and_how_it_judged_is_read() {
     let error = refused(&[HEADER, STATE, &MEANT.replace("timed-out", "late"), STATE]);
     assert_eq!(
         error,
-        "a.jsonl:3:96: unknown word `late`, expected one of `as-expected`, `nothing`, `partly`, `otherwise`, \
-         `refused`, `timed-out`"
+        "a.jsonl:3:96: in `verdict`: expected one of `as-expected`, `nothing`, `partly`, `otherwise`, \
+         `refused`, `timed-out`, found the unknown word `late`"
     );
 }
 
@@ -87,11 +87,11 @@ fn the_header_comes_first_and_names_the_version() {
     );
     assert_eq!(
         refused(&[r#"{"format":"trace/1","goal":["free(a"]}"#]),
-        "a.jsonl:1:37: `free(a` is not an atom of the form predicate(entity,entity)"
+        "a.jsonl:1:37: in `goal`: `free(a` is not an atom of the form predicate(entity,entity)"
     );
     assert_eq!(
         refused(&[r#"{"format":"trace/1","goal":["free(a)","not free(a)"]}"#]),
-        "a.jsonl:1:52: the goal contradicts itself: it has `free(a)` and `not free(a)`"
+        "a.jsonl:1:52: in `goal`: the goal contradicts itself: it has `free(a)` and `not free(a)`"
     );
     let negated = read(&[&HEADER.replace("free(a)", "not free(a)"), STATE]).expect("a trace");
     assert_eq!(negated.goal.forbidden, [GroundAtom::new("free", vec!["a".into()])]);
@@ -132,20 +132,23 @@ fn malformed_lines_are_refused_with_their_place() {
     for (line, message) in [
         ("{\"state\":{}}", "a.jsonl:2: this state has neither `entities` nor `objects`"),
         ("{\"state\":{\"entities\":[],\"objects\":{}}}", "a.jsonl:2: this state has both `entities` and `objects`"),
-        ("{\"state\":7}", "a.jsonl:2:10: invalid type: integer `7`, expected a state"),
+        ("{\"state\":7}", "a.jsonl:2:10: in `state`: expected a state, found the number 7"),
         ("{\"state\" 7}", "a.jsonl:2:10: this is not JSON: expected `:`"),
         ("{\"state\":{\"entities\":[]}} x", "a.jsonl:2:27: nothing may follow after the end of the JSON text"),
         (
             "{\"state\":{\"entities\":[{\"id\":\"a\",\"type\":\"block\",\"attributes\":{\"x\":{}}}]}}",
-            "a.jsonl:2:67: an attribute is true, false, a word, a number or a list of numbers",
+            "a.jsonl:2:67: in `state.entities[0].attributes.x`: an attribute is true, false, a word, a number or a list of numbers",
         ),
         (
             "{\"state\":{\"entities\":[{\"id\":\"a\",\"type\":\"block\",\"relations\":{\"x\":1}}]}}",
-            "a.jsonl:2:65: a relation is to an entity's name, null or a list of names",
+            "a.jsonl:2:65: in `state.entities[0].relations.x`: a relation is to an entity's name, null or a list of names",
         ),
-        ("{\"state\":{\"objects\":{\"a\":\"block\",\"a\":\"arm\"}}}", "a.jsonl:2:36: `a` stands here twice"),
-        ("{\"state\":{\"entities\":[{\"id\":\"a\"}]}}", "a.jsonl:2:32: missing field `type`"),
-        ("{\"action\":{\"name\":\"GO\"}}", "a.jsonl:2:23: missing field `args`"),
+        (
+            "{\"state\":{\"objects\":{\"a\":\"block\",\"a\":\"arm\"}}}",
+            "a.jsonl:2:36: in `state.objects`: `a` stands here twice",
+        ),
+        ("{\"state\":{\"entities\":[{\"id\":\"a\"}]}}", "a.jsonl:2:32: in `state.entities[0]`: `type` is missing"),
+        ("{\"action\":{\"name\":\"GO\"}}", "a.jsonl:2:23: in `action`: `args` is missing"),
     ] {
         assert_eq!(refused(&[HEADER, line]), message, "{line}");
     }

@@ -19,9 +19,9 @@ use crate::style::{HEAD, wrapped};
   typelift lab demonstrations --variant generalized+imagined -o D
   typelift lab demonstrations --quick -o Q
 
-Writes violins.svg, demonstrations.csv (a row a subset: what the violins are made
-of), sizes.csv, gains.csv, demonstrations.json and demonstrations.md. Nothing in
-them depends on the machine, unless --time-limit ended a search.
+Writes violins.svg, demonstrations.csv (a row a subset: what the violins are
+made of), sizes.csv, gains.csv, demonstrations.json and demonstrations.md.
+Nothing in them depends on the machine, unless --time-limit ended a search.
 
 Limits, unless told otherwise: 4,000 expansions a search, 4 proposals and
 120 s a task.")]

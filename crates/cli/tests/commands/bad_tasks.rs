@@ -81,9 +81,11 @@ fn tasks_in_which_something_is_probably_not_meant() {
     };
     let empty = "warning: task.json: the goal is empty: it holds in every state\n";
     assert!(with("goal").contains(empty), "{}", with("goal"));
-    for (key, hint) in
-        [("goals", "Did you mean `goal`?"), ("gaol", "A task may have format, goal, state, scenario, seed.")]
-    {
+    for (key, hint) in [
+        ("goals", "Did you mean `goal`?"),
+        ("gaol", "Did you mean `goal`?"),
+        ("aim", "A task may have format, goal, state, scenario, seed."),
+    ] {
         let said = with(key);
         assert!(said.contains(&format!("warning: task.json: `{key}` is not read\nhint: {hint}\n")), "{said}");
     }

@@ -61,6 +61,12 @@ fn the_option_takes_nothing_that_stands_behind_it() {
     let folder = Folder::kitchen();
     let ended = folder.run_with_input("run --confirm kitchen.json K/tasks/T4.1.json --imagine --kitchen", "s\n");
     assert!(ended.code == 12 && ended.err.contains("execute?"), "{ended}");
+    for asked in
+        ["run kitchen.json K/tasks/T4.1.json --kitchen --confirm all", "run --confirm all kitchen.json --kitchen"]
+    {
+        let ended = folder.refuses(36, asked);
+        assert!(ended.err.contains("`all` is taken for a file here\nhint: Write --confirm=all.\n"), "{ended}");
+    }
     let between = folder.run("run kitchen.json --confirm K/tasks/T1.1.json --kitchen");
     assert!(between.code == 0 && !between.err.contains("execute?"), "{between}");
 }

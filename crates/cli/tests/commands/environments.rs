@@ -70,12 +70,59 @@ fn environments_that_fail() {
     insta::assert_snapshot!(transcript.0);
 }
 
+/// No shell reads the command line of an environment or a planner.
+#[test]
+fn a_command_line_for_a_shell_is_told_from_a_missing_program() {
+    let folder = Folder::kitchen();
+    for (option, code) in [("--env", 35), ("--planner", 38)] {
+        for (command, sign) in [
+            ("cd robots && ./robot {domain} {problem}", "cd"),
+            ("~/robot {domain} {problem}", "~/robot"),
+            ("no-such-robot {domain} {problem} | tee log", "|"),
+        ] {
+            let kitchen = if option == "--env" { "" } else { "--kitchen" };
+            let ended = folder.run(&format!("run kitchen.json K/tasks/T1.1.json -q {kitchen} {option} '{command}'"));
+            let hint = format!("No shell reads the command line, and `{sign}` is for a shell: write sh -c '…'");
+            assert!(ended.code == code && ended.err.contains(&hint), "{option} {command}: {ended}");
+        }
+    }
+}
+
+/// A misspelled key would silently leave out what it was to say.
+#[test]
+fn a_key_that_nothing_reads_is_told_once() {
+    let folder = Folder::new();
+    folder.write("types.json", r#"{"cup": "object"}"#);
+    folder.write(
+        "env.sh",
+        r#"while read -r line; do
+  id=${line#*'"id":'}; id=${id%%[,\}]*}
+  echo "{\"id\":$id,\"ok\":true,\"name\":\"shelf\",\"reset\":true,\"executed\":true,\"state\":{\"entities\":[
+    {\"id\":\"a\",\"type\":\"cup\",\"relation\":{\"on\":null}},{\"id\":\"b\",\"type\":\"cup\",\"relation\":{}}]}}" | tr -d '\n'
+  echo
+done
+"#,
+    );
+    let checked = folder.run("check-env 'sh env.sh' --types types.json");
+    assert_eq!(checked.code, 12, "{checked}");
+    assert_eq!(checked.out.matches("`relation` of a is not read").count(), 1, "{checked}");
+    assert!(checked.out.contains("Did you mean `relations`?"), "{checked}");
+    folder.write("domain.pddl", "(define (domain d) (:types cup - object) (:predicates (clean ?x - cup)))");
+    folder.write("task.json", r#"{"format":"task/1","goal":["clean(a)"]}"#);
+    let run = folder.run("run domain.pddl task.json task.json --env 'sh env.sh'");
+    assert_eq!(
+        run.err.matches("entity a: `relation` is not read\nhint: Did you mean `relations`?\n").count(),
+        1,
+        "{run}"
+    );
+}
+
 /// What is wrong with a state has its own remedy: --types helps against an unknown type only.
 #[test]
 fn a_state_that_cannot_be_read_comes_with_the_hint_for_what_is_wrong_with_it() {
     let folder = Folder::kitchen();
     for (entities, hint) in [
-        (r#"{"id":"a","type":"robot"}"#, "can be added with --types."),
+        (r#"{"id":"a","type":"robot"}"#, "--types FILE adds types to a learned one."),
         (r#"{"id":"a","type":"agent"},{"id":"a","type":"agent"}"#, "Give each entity a name of its own."),
         (
             r#"{"id":"a","type":"agent","relations":{"holding":"b"}}"#,

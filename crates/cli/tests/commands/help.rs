@@ -48,6 +48,16 @@ fn every_command_has_help() {
 }
 
 #[test]
+fn help_may_come_first() {
+    let folder = Folder::new();
+    for command in ["", "plan", "lab table"] {
+        let asked = folder.run(&format!("help {command}"));
+        asked.succeeds();
+        assert_eq!(asked.out, folder.run(&format!("{command} --help")).out, "{command}");
+    }
+}
+
+#[test]
 fn the_version() {
     let version = Folder::new().run("--version");
     version.succeeds();

@@ -35,12 +35,26 @@ fn adding_is_learning_from_all_at_once() {
 }
 
 #[test]
+fn types_are_given_or_those_of_a_model() {
+    let folder = Folder::kitchen();
+    assert_eq!(
+        folder.refuses(36, "learn K/demos -o m.json").err,
+        "error: no types: say --types FILE\n\
+         hint: Or say which model to add to, with --into MODEL: then its types hold.\n"
+    );
+}
+
+#[test]
 fn the_same_trace_counts_once() {
     let (folder, demos) = part();
     folder.write("z.jsonl", folder.read(&format!("K/demos/{}", demos[3])));
     let twice = folder.run("learn K/demos z.jsonl --types K/types.pddl -o twice.json");
     assert!(folder.read("twice.json") == folder.read("kitchen.json"));
+    let modified = || folder.path("kitchen.json").metadata().and_then(|data| data.modified()).expect("a time");
+    let before = modified();
     let again = folder.run("learn --into kitchen.json z.jsonl");
+    assert!(again.err.contains("kitchen.json stays as it is: there is nothing new\n"), "{again}");
+    assert_eq!(before, modified(), "it is not written anew");
     assert!(folder.read("twice.json") == folder.read("kitchen.json"));
     let mut transcript = Transcript::default();
     transcript.add("twice in one command", &twice);

@@ -18,7 +18,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use typelift_model::{GroundCall, Hierarchy, ParseConfig, ROOT, State, Symbol, nearest};
 
-use crate::{Parser, Reset, Scene, World, WorldError};
+use crate::{Parser, Reset, Scene, UnreadKey, World, WorldError};
 use comparing::compare;
 use sightings::Sightings;
 
@@ -96,6 +96,7 @@ pub fn inspect(world: &mut dyn World, options: &InspectOptions) -> Result<Inspec
     for call in &options.calls {
         before = inspector.try_call(world, call, before.as_ref())?;
     }
+    inspector.note_unread_keys(world.unread_keys());
     Ok(inspector.finish())
 }
 
@@ -265,6 +266,12 @@ impl Inspector {
         }
         self.tried.push(Tried { call: call.clone(), executed, reason: acted.reason, change });
         Ok(observed.or(after))
+    }
+
+    fn note_unread_keys(&mut self, unread: &[UnreadKey]) {
+        for UnreadKey { entity, key, near } in unread.iter().cloned() {
+            self.find("state", Problem::UnreadKey { key, entity, near });
+        }
     }
 
     fn finish(mut self) -> Inspection {

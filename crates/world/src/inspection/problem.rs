@@ -70,6 +70,16 @@ pub enum Problem {
     /// A scene that is no state.
     #[error("this is no state: {0}")]
     NotAState(ParseError),
+    /// A key of an entity that nothing reads.
+    #[error("`{key}` of {entity} is not read")]
+    UnreadKey {
+        /// The key.
+        key: Symbol,
+        /// An entity that has it.
+        entity: Symbol,
+        /// The key that may have been meant.
+        near: Symbol,
+    },
     /// A type that the hierarchy does not have.
     #[error("the types do not have `{ty}`, the type of {entity}")]
     UnknownType {
@@ -202,6 +212,7 @@ impl Problem {
     pub fn word(&self) -> &'static str {
         match self {
             Self::NotAState(_) => "not_a_state",
+            Self::UnreadKey { .. } => "unread_key",
             Self::UnknownType { .. } => "unknown_type",
             Self::TypeChanges { .. } => "type_changes",
             Self::NotRepeatable { .. } => "not_repeatable",
@@ -239,6 +250,7 @@ impl Problem {
     pub fn hint(&self) -> String {
         match self {
             Self::NotAState(_) => "Learning refuses such a state. Mend it, and check again: there may be more.".to_owned(),
+            Self::UnreadKey { near, .. } => format!("Did you mean `{near}`?"),
             Self::UnknownType { near: Some(near), .. } => format!("Did you mean `{near}`?"),
             Self::UnknownType { ty, .. } => format!("Declare `{ty}` in the types file, under what it is a kind of."),
             Self::TypeChanges { .. } => {
