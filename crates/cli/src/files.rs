@@ -1,5 +1,6 @@
 //! Reading models and tasks, as every command that takes them does.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use typelift::model::{ActionModel, Hierarchy, LearnedModel, ModelFileError, ParseConfig, Symbol, Task, did_you_mean};
@@ -79,6 +80,14 @@ impl ModelInput {
         match self {
             Self::Learned(learned) => learned.domain.clone().unwrap_or_else(|| domain_name(path)),
             Self::Given(domain) => Symbol::from(domain.domain.name.as_str().to_ascii_lowercase()),
+        }
+    }
+
+    /// The predicates that its domain declares and no demonstration showed.
+    pub(crate) fn undemonstrated(&self) -> BTreeSet<Symbol> {
+        match self {
+            Self::Learned(learned) => learned.undemonstrated(),
+            Self::Given(_) => BTreeSet::new(),
         }
     }
 

@@ -154,7 +154,7 @@ impl Learn {
             (_, true) => Unlisted::Unknown,
             _ => Unlisted::AsListed,
         };
-        let LearnedModel { model, domain, parse, options, mut evidence, .. } =
+        let LearnedModel { model, domain, declared_predicates, parse, options, mut evidence, .. } =
             beginning(self.into.as_ref(), self.types.as_ref(), ignore)?;
         types.add_constants(model.constants.iter().map(|(name, ty)| (name, model.hierarchy.name(*ty))));
         let context = TrajectoryContext { types, unlisted };
@@ -185,6 +185,7 @@ impl Learn {
             Failure::bad_input(format!("--actor {name}: {error}")).with_hint(hint)
         })?;
         (model.domain, model.model.constants) = (domain, constants);
+        model.declare(declared_predicates);
         let missing_actor = report.no_actor.as_ref().and_then(|why| missing_actor(why, actor_before.as_ref()));
         let notes = missing_actor.into_iter().chain(unbounded_parameters(&model.model)).collect();
         Ok(Learned { dataset, known, model, report, notes })

@@ -4,7 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use typelift::learn::Options;
-use typelift::model::{Evidence, Hierarchy, LearnedModel, MergeError, ParseConfig, SourceId, Symbol, TypeId};
+use typelift::model::{
+    ArgumentTypes, Evidence, Hierarchy, LearnedModel, MergeError, ParseConfig, SourceId, Symbol, TypeId,
+};
 use typelift::world::{FileError, read_types, source_of_file};
 
 use crate::failure::Failure;
@@ -19,6 +21,7 @@ struct Given<'p> {
     hierarchy: Hierarchy,
     domain: Option<Symbol>,
     constants: BTreeMap<Symbol, TypeId>,
+    predicates: ArgumentTypes,
 }
 
 impl<'p> Given<'p> {
@@ -26,7 +29,8 @@ impl<'p> Given<'p> {
         let file = read_types(path)?;
         let hierarchy = file.extend(&Hierarchy::default())?;
         let constants = file.constants(&hierarchy)?;
-        Ok(Self { path, domain: file.domain().cloned(), hierarchy, constants })
+        let predicates = file.predicates(&hierarchy)?;
+        Ok(Self { path, domain: file.domain().cloned(), hierarchy, constants, predicates })
     }
 }
 
@@ -40,25 +44,33 @@ pub(crate) fn beginning(
     let Some(path) = into else {
         let mut none =
             LearnedModel { parse: ParseConfig { ignore, ..ParseConfig::default() }, ..LearnedModel::default() };
-        if let Some(Given { hierarchy, domain, constants, .. }) = types {
+        if let Some(Given { hierarchy, domain, constants, predicates, .. }) = types {
             (none.model.hierarchy, none.domain, none.model.constants) = (hierarchy, domain, constants);
+            none.declared_predicates = predicates;
         }
         return Ok(none);
     };
     let ModelInput::Learned(mut learned) = read_model_input(path, None)? else {
         return Err(Failure::bad_input(format!("{}: this is a PDDL domain, not a learned model", path.display())));
     };
-    if let Some(Given { path: given, hierarchy, domain, constants }) = types {
+    if let Some(Given { path: given, hierarchy, domain, constants, predicates }) = types {
         let agreed = learned.agrees(&hierarchy, &learned.parse);
         agreed.map_err(|error| {
             let hint = "Leave out --types: those of the model hold. Or learn from all traces anew.";
             Failure::bad_input(format!("--types {}: {error}", given.display())).with_hint(hint)
         })?;
-        let ids = |name: &Symbol| learned.model.hierarchy.id(name.as_str());
-        let own = constants.into_iter().filter_map(|(name, ty)| Some((name, ids(hierarchy.name(ty))?)));
-        let own: Vec<_> = own.collect();
-        for (name, ty) in own {
+        // Since the hierarchies agree, the model has each of these types.
+        let own = |ty: TypeId| learned.model.hierarchy.id(hierarchy.name(ty).as_str());
+        let constants: Vec<_> = constants.into_iter().filter_map(|(name, ty)| Some((name, own(ty)?))).collect();
+        let typed = |(name, types): (Symbol, Vec<TypeId>)| {
+            Some((name, types.into_iter().map(own).collect::<Option<Vec<_>>>()?))
+        };
+        let predicates: Vec<_> = predicates.into_iter().filter_map(typed).collect();
+        for (name, ty) in constants {
             learned.model.constants.entry(name).or_insert(ty);
+        }
+        for (name, types) in predicates {
+            learned.declared_predicates.entry(name).or_insert(types);
         }
         learned.domain = learned.domain.take().or(domain);
     }

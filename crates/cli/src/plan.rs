@@ -1,5 +1,6 @@
 //! `typelift plan`.
 
+use std::collections::BTreeSet;
 use std::io::Write;
 use std::mem::ManuallyDrop;
 use std::path::{Path, PathBuf};
@@ -7,7 +8,7 @@ use std::time::Duration;
 
 use typelift::agent::{Options, Proposal, ProposeError, propose};
 use typelift::imagine;
-use typelift::model::{ActionModel, Budget, Plan as FoundPlan, Stop, Task};
+use typelift::model::{ActionModel, Budget, Plan as FoundPlan, Stop, Symbol, Task};
 use typelift::plan::{Outcome, Restrictions};
 use typelift::words::{AnswerView, count, ending, numbered_steps, plan_size, why_none};
 use typelift::world::write_file;
@@ -73,6 +74,8 @@ struct FirstAnswer {
     output: Option<PathBuf>,
     /// What stands already where plans are written without being asked to.
     existing: Vec<PathBuf>,
+    /// The predicates that the model has from its domain alone.
+    undemonstrated: BTreeSet<Symbol>,
     /// When all was read.
     read: Duration,
     proposal: Result<Proposal, Stop>,
@@ -83,7 +86,7 @@ impl Plan {
         let interrupt = Interrupt::install()?;
         let memory = memory_held_from_now();
         let budget = self.planning.limits.budget(clock, &interrupt, None);
-        let FirstAnswer { model, task, output, existing, read, proposal } =
+        let FirstAnswer { model, task, output, existing, undemonstrated, read, proposal } =
             self.begin_watched(clock, &budget, &interrupt, quiet)?;
         // The answer need not wait for the memory to be freed.
         let mut proposal = match proposal {
@@ -140,6 +143,7 @@ impl Plan {
         out.flush()?;
         if plans.is_empty() {
             self.report_none(&last, &proposal, &model, &task, &budget);
+            say_undemonstrated(&undemonstrated, &task);
         } else if !quiet {
             let limited = if self.better { &budget } else { &for_another };
             self.report_end(&last, plans.len(), limited.expansions);
@@ -174,6 +178,7 @@ impl Plan {
         keep_inputs(output.as_deref().map(|file| self.written(file)), model.files().chain([&self.task]))?;
         let unasked = output.as_deref().filter(|_| self.output.is_none());
         let existing = unasked.map(|file| self.written(file).existing()).unwrap_or_default();
+        let undemonstrated = input.undemonstrated();
         let (model, task) = input.read_planning_task(&self.task, quiet)?;
         interrupt.heeded();
         let read = clock.elapsed();
@@ -182,7 +187,7 @@ impl Plan {
             Err(ProposeError::Stopped(stop)) => Err(stop),
             proposal => Ok(proposal?),
         };
-        Ok(FirstAnswer { model, task, output, existing, read, proposal })
+        Ok(FirstAnswer { model, task, output, existing, undemonstrated, read, proposal })
     }
 
     /// What is written where the plans are to go to this file.
@@ -339,6 +344,17 @@ impl Plan {
 fn say_that_it_holds(quiet: bool) {
     if !quiet {
         anstream::eprintln!("the goal holds already: nothing is to be done");
+    }
+}
+
+/// Says of which predicates no demonstration shows how what the goal asks of them comes about.
+fn say_undemonstrated(undemonstrated: &BTreeSet<Symbol>, task: &Task) {
+    let asked = task.goal.literals().filter(|(atom, positive)| task.init.atoms.contains(*atom) != *positive);
+    let predicates: BTreeSet<&Symbol> = asked.map(|(atom, _)| &atom.predicate).collect();
+    for predicate in predicates.into_iter().filter(|predicate| undemonstrated.contains(*predicate)) {
+        anstream::eprintln!(
+            "{WARNING}note{WARNING:#}: no demonstration showed `{predicate}`: the domain declares it, and no learned action changes it"
+        );
     }
 }
 

@@ -130,7 +130,7 @@ pub fn learn_evidence(
     let parse = ParseConfig { by_arity: total.names_of_several_arities(), ..parse.clone() };
     drop(total);
     let options = options.clone();
-    Ok((LearnedModel { model, domain: None, parse, options, evidence, refused }, report))
+    Ok((LearnedModel { model, parse, options, evidence, refused, ..LearnedModel::default() }, report))
 }
 
 /// Algorithm 1 after clustering: a pure function of what was observed.

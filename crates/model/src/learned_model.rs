@@ -5,7 +5,8 @@ use std::collections::BTreeSet;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::{ActionModel, Evidence, Hierarchy, ParseConfig, Symbol};
+use crate::pddl_names::folded;
+use crate::{ActionModel, ArgumentTypes, Evidence, Hierarchy, ParseConfig, Symbol};
 
 /// A model, how the states it speaks of were read, and the evidence it rests on. Plans need the
 /// [model](Self::model) alone; the rest is for reading more states and for learning more.
@@ -15,6 +16,8 @@ pub struct LearnedModel {
     pub model: ActionModel,
     /// The name of the PDDL domain that declares its types, if it is known.
     pub domain: Option<Symbol>,
+    /// The predicates that this domain declares. The model has those of them, too, that no demonstration showed.
+    pub declared_predicates: ArgumentTypes,
     /// How snapshots are read.
     pub parse: ParseConfig,
     /// What was asked of learning.
@@ -95,6 +98,24 @@ fn place(parents: &BTreeSet<Symbol>) -> String {
 }
 
 impl LearnedModel {
+    /// Adds to the model the predicates that its domain declares and no demonstration showed. Of one that was shown, the
+    /// model keeps the types that were seen.
+    pub fn declare(&mut self, predicates: ArgumentTypes) {
+        self.declared_predicates = predicates;
+        for name in self.undemonstrated() {
+            let types = self.declared_predicates.get(&name).cloned().unwrap_or_default();
+            self.model.predicates.insert(name, types);
+        }
+    }
+
+    /// The predicates that the domain declares and no demonstration showed, in the order of their names. What is one name
+    /// in PDDL is one here.
+    pub fn undemonstrated(&self) -> BTreeSet<Symbol> {
+        let total = self.evidence.total();
+        let shown: BTreeSet<Symbol> = total.predicates.keys().map(|(name, _)| folded(name.as_str())).collect();
+        self.declared_predicates.keys().filter(|name| !shown.contains(&folded(name.as_str()))).cloned().collect()
+    }
+
     /// That states read with this hierarchy and in this way are of the kind that the model was learned from.
     ///
     /// # Errors

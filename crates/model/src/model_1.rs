@@ -82,6 +82,7 @@ impl ModelFile1 {
             format: MODEL_FORMAT.to_owned(),
             types: self.types,
             predicates: BTreeMap::new(),
+            declared_predicates: BTreeMap::new(),
             parse: self.parse,
             options: LearnOptions::default(),
             actor: self.actor,

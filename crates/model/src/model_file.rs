@@ -25,6 +25,9 @@ pub(crate) struct ModelFile {
     pub(crate) types: Vec<(Symbol, Symbol)>,
     /// The types of each predicate's arguments.
     pub(crate) predicates: BTreeMap<Symbol, Vec<Symbol>>,
+    /// The types of the arguments of each predicate that the PDDL domain declares, demonstrated or not.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub(crate) declared_predicates: BTreeMap<Symbol, Vec<Symbol>>,
     #[serde(default)]
     pub(crate) parse: ParseConfig,
     /// What was asked of learning.
@@ -188,12 +191,14 @@ impl LearnedModel {
         }
         let map = |names: &crate::PddlNames| names.iter().map(|(n, p)| (n.clone(), p.clone())).collect();
         let names_of = |types: &[TypeId]| types.iter().map(|ty| model.hierarchy.name(*ty).clone()).collect();
+        let named = |(name, types): (&Symbol, &Vec<TypeId>)| (name.clone(), names_of(types));
         let clusters: Vec<&ClusterKey> = total.clusters.keys().collect();
         let file = ModelFile {
             format: MODEL_FORMAT.to_owned(),
             domain: self.domain.clone(),
             types: model.hierarchy.edges().map(|(c, p)| (c.clone(), p.clone())).collect(),
-            predicates: model.predicates.iter().map(|(name, types)| (name.clone(), names_of(types))).collect(),
+            predicates: model.predicates.iter().map(named).collect(),
+            declared_predicates: self.declared_predicates.iter().map(named).collect(),
             parse: self.parse.clone(),
             options: self.options.clone(),
             actor: model.actor.map(|ty| model.hierarchy.name(ty).clone()),

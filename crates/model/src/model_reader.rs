@@ -81,12 +81,8 @@ impl LearnedModel {
         for (name, ty) in file.constants {
             constants.insert(name, type_id(&hierarchy, &ty, || "\"constants\"".to_owned())?);
         }
-        let mut predicates = ArgumentTypes::new();
-        for (name, types) in file.predicates {
-            let place = || format!("predicate {name}");
-            let types = types.iter().map(|ty| type_id(&hierarchy, ty, place)).collect::<Result<_, _>>()?;
-            predicates.insert(name, types);
-        }
+        let predicates = read_predicates(file.predicates, &hierarchy)?;
+        let declared_predicates = read_predicates(file.declared_predicates, &hierarchy)?;
         let axioms = file.axioms.into_iter().map(|axiom| read_axiom(axiom, &hierarchy)).collect::<Result<_, _>>()?;
         let wordings = BTreeMap::new();
         let model = ActionModel { hierarchy, predicates, actor, constants, actions, axioms, wordings };
@@ -94,12 +90,25 @@ impl LearnedModel {
         Ok(Self {
             model,
             domain: file.domain,
+            declared_predicates,
             parse: file.parse,
             options: file.options,
             evidence,
             refused: file.refused_merges,
         })
     }
+}
+
+fn read_predicates(
+    predicates: BTreeMap<Symbol, Vec<Symbol>>,
+    hierarchy: &Hierarchy,
+) -> Result<ArgumentTypes, ModelFileError> {
+    let read = |(name, types): (Symbol, Vec<Symbol>)| {
+        let place = || format!("predicate {name}");
+        let types = types.iter().map(|ty| type_id(hierarchy, ty, place)).collect::<Result<_, _>>()?;
+        Ok((name, types))
+    };
+    predicates.into_iter().map(read).collect()
 }
 
 /// A cluster under its own parameters.

@@ -79,7 +79,8 @@ fn is_reserved(kind: &str, name: &str) -> bool {
     }
 }
 
-fn folded(name: &str) -> Symbol {
+/// A name as PDDL has it, as [`PddlNames::fold`] says.
+pub(crate) fn folded(name: &str) -> Symbol {
     let mut text = String::with_capacity(name.len());
     for c in name.chars() {
         match c {

@@ -1,6 +1,6 @@
 //! Reads domains.
 
-use typelift_model::{EQUALS, Hierarchy, MOST_PARAMETERS, Symbol};
+use typelift_model::{ArgumentTypes, EQUALS, Hierarchy, MOST_PARAMETERS, Symbol, TypeId};
 
 use crate::definition::refuse_other_blocks;
 use crate::effect_reader::EffectReader;
@@ -64,6 +64,23 @@ pub fn read_domain(text: &str) -> Result<Domain, PddlError> {
         domain.actions.push(action);
     }
     Ok(domain)
+}
+
+/// The predicates that a domain declares, each argument with the lowest type that covers what may stand there. Nothing else
+/// of the domain is read but for its types, which are given.
+///
+/// # Errors
+/// [`PddlError`] if it is no domain, or at what is wrong in its `:predicates`.
+pub fn read_declared_predicates(text: &str, types: &Hierarchy) -> Result<ArgumentTypes, PddlError> {
+    let document = Document::read(text)?;
+    let definition = Definition::only(&document, DefinitionKind::Domain)?;
+    let mut vocabulary = Vocabulary::with_types(types.clone(), DeclaredIn::Domain);
+    let signatures = read_predicates(&mut vocabulary, definition.block(":predicates")?)?;
+    let lowest = |parameter: &Typed| -> TypeId {
+        vocabulary.ids(parameter).into_iter().reduce(|a, b| types.lca(a, b)).unwrap_or(types.root())
+    };
+    let typed = |signature: Signature| (signature.name, signature.parameters.iter().map(lowest).collect());
+    Ok(signatures.into_iter().map(typed).collect())
 }
 
 fn blocks<'d>(definition: &Definition<'d>, key: &'static str) -> impl Iterator<Item = Sexpr<'d>> {

@@ -47,7 +47,7 @@ mod vocabulary;
 
 pub use compile::{CompileError, CompilePart, compile_domain, compile_problem};
 pub use definition::{Definition, DefinitionKind};
-pub use domain_reader::read_domain;
+pub use domain_reader::{read_declared_predicates, read_domain};
 pub use error::{PddlError, Related};
 pub use export::{ExportError, ExportNames, ExportOptions, Exported, Level, MOST_FACTS, UnknownName, export};
 pub use format::format;

@@ -6,12 +6,15 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};
-use typelift_model::{Hierarchy, Symbol, TypeId, check_name, did_you_mean};
-use typelift_pddl::{Declarations, Document, ObjectDeclaration, PddlError, Span, TypeEdge, hierarchy_from_types};
+use typelift_model::{ArgumentTypes, Hierarchy, Symbol, TypeId, check_name, did_you_mean};
+use typelift_pddl::{
+    Declarations, Document, ObjectDeclaration, PddlError, Span, TypeEdge, hierarchy_from_types,
+    read_declared_predicates,
+};
 
 use crate::{FileError, json, read_text};
 
-/// The types that a file declares, with their places in it; of a domain its name and constants, too.
+/// The types that a file declares, with their places in it; of a domain its name, constants and predicates, too.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TypesFile {
     path: PathBuf,
@@ -75,6 +78,18 @@ impl TypesFile {
             Ok((constant.name.clone(), ty))
         };
         self.constants.iter().map(typed).collect()
+    }
+
+    /// The predicates of the domain that the file is, over the types of a hierarchy that has those of the file.
+    ///
+    /// # Errors
+    /// [`FileError`] at a predicate that is not one, or is of a type that the hierarchy does not have.
+    pub fn predicates(&self, hierarchy: &Hierarchy) -> Result<ArgumentTypes, FileError> {
+        match self.domain {
+            None => Ok(ArgumentTypes::new()),
+            Some(_) => read_declared_predicates(&self.text, hierarchy)
+                .map_err(|error| FileError::from_pddl(&self.path, &self.text, error)),
+        }
     }
 
     /// Each type with each of its parents, in the order of the file.

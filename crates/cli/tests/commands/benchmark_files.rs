@@ -83,6 +83,58 @@ fn constants_and_the_domains_name_stay_with_the_model() {
     assert!(shed.err.contains("constant `depot`: unknown type `shed`"), "{shed}");
 }
 
+/// As [`shift`], with predicates that no demonstration shows.
+fn shift_of_a_larger_domain() -> Folder {
+    let folder = shift();
+    let domain =
+        DOMAIN.replace("(clean ?l - line)", "(clean ?l - line) (broken ?l - Line) (Next ?a ?b - (either stop line))");
+    folder.write("domain.pddl", domain);
+    let learned = "learn 1.trajectory 2.trajectory --types domain.pddl --problems P --actor none -o shift.json";
+    folder.run(learned).succeeds();
+    folder
+}
+
+#[test]
+fn what_only_the_domain_declares_may_hold() {
+    let folder = shift_of_a_larger_domain();
+    assert!(folder.run("show shift.json --predicates").out.contains("broken(Line)\n"), "it is the model's");
+    let with = |held: &str, goal: &str| {
+        let task = TASK.replace("(:init ", &format!("(:init {held} ")).replace("(at BUS-7 depot)", goal);
+        folder.write("late.pddl", task);
+        folder.run("plan shift.json late.pddl -o late.plan")
+    };
+    let planned = with("(next market depot) (NEXT bus-7 depot) (broken bus-7)", "(at bus-7 depot) (broken bus-7)");
+    assert!(planned.out.starts_with("3 steps"), "{planned}");
+    folder.run("validate shift.json late.pddl late.plan").succeeds();
+    // The export declares them, too: the benchmark's problem is one of it.
+    folder.run("export shift.json -o E -q").succeeds();
+    let as_domain = folder.run("plan E/domain.pddl late.pddl");
+    assert!(as_domain.out.starts_with("3 steps"), "{as_domain}");
+    let mut transcript = Transcript::default();
+    transcript.add("asked for", &with("", "(broken bus-7)"));
+    transcript.add("asked for among others", &with("", "(or (broken tram_2) (next depot market))"));
+    transcript.add("misspelt", &with("(brokn bus-7)", "(at bus-7 depot)"));
+    insta::assert_snapshot!(transcript.0);
+}
+
+#[test]
+fn what_the_domain_declares_stays_with_the_model_whatever_is_shown() {
+    let folder = shift_of_a_larger_domain();
+    folder.write(
+        "3.trajectory",
+        "(:trajectory (:state (at t1 depot) (dirty t1) (broken t1)) (:action (wash t1 depot))
+ (:state (at t1 depot) (clean t1) (broken t1)))",
+    );
+    folder.write("P/3.pddl", folder.read("P/1.pddl"));
+    let types = |model: &str, predicate: &str| folder.json(model)["predicates"][predicate].clone();
+    folder.run("learn --into shift.json 3.trajectory --problems P -o more.json -q").succeeds();
+    assert_eq!(types("shift.json", "broken"), serde_json::json!(["Line"]), "as the domain has it");
+    assert_eq!(types("more.json", "broken"), serde_json::json!(["Tram"]), "as it was seen");
+    assert_eq!(types("more.json", "next"), serde_json::json!(["object", "object"]));
+    folder.run("learn --into more.json --forget 3.trajectory -o less.json -q").succeeds();
+    assert!(folder.read("less.json") == folder.read("shift.json"), "as if it had never been there");
+}
+
 #[test]
 fn what_the_model_does_not_know_is_said_with_its_place() {
     let folder = shift();

@@ -36,12 +36,12 @@ pub(crate) fn measure(transitions: u64, seconds: f64) -> Measurement {
     let spent = observing + begun.seconds();
     let learned = LearnedModel {
         model,
-        domain: None,
         parse: ParseConfig::default(),
         options: Options::default(),
         // One long trace.
         evidence: Evidence::from_iter([(SourceId::new([0; 32]), Symbol::new("play"), evidence)]),
         refused: report.refused,
+        ..LearnedModel::default()
     };
     let model_bytes = learned.to_json().map_or(0, |text| text.len() as u64);
     Measurement {
