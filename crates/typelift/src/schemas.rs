@@ -4,17 +4,22 @@ use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema};
 use typelift_agent::{Episode, Input};
 use typelift_model::LearnedModel;
-use typelift_words::{AccountView, AnswerView, WireCommand, WireEvent};
+use typelift_words::{AccountView, AnswerView, InspectionView, ModelDifference, WireCommand, WireEvent};
 use typelift_world::{Answer, Request, Scene, TaskFile, TraceLine};
 
 /// Each schema, by the name that its file has. A trace is described by the schema of one of its lines.
-pub fn schemas() -> [(&'static str, serde_json::Value); 11] {
+pub fn schemas() -> [(&'static str, serde_json::Value); 13] {
     [
         ("trace", schema::<TraceLine<'_>>("A line of a trace, format trace/1")),
         ("task", schema::<TaskFile>("A task, format task/1")),
         ("model", schema::<LearnedModel>("A model, format model/2")),
         ("answer", schema::<AnswerView>("The answer to a planning question, as `plan --json` prints it")),
         ("account", schema::<AccountView>("The account of a task, as `run --json` prints it")),
+        ("difference", schema::<ModelDifference>("How two models differ, as `diff --json` prints it")),
+        (
+            "inspection",
+            schema::<InspectionView>("What was found in trying an environment, as `check-env --json` prints it"),
+        ),
         ("event", schema::<WireEvent>("Something that happens during an episode, a line of `run --events`")),
         ("env-request", schema::<Request>("A request to an environment, protocol env/1")),
         ("env-answer", schema::<Answer>("An environment's answer, protocol env/1")),

@@ -16,6 +16,7 @@ use matching::{Pair, matching};
 
 /// What only one of two lists has, each in its order.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ListDifference {
     /// What only the first has.
     pub only_first: BTreeSet<String>,
@@ -25,6 +26,7 @@ pub struct ListDifference {
 
 /// How an action differs in two models; the second's parameters are called as the first's.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ActionDifference {
     /// Its name in the first model.
     pub first: String,
@@ -49,6 +51,7 @@ pub struct ActionDifference {
 
 /// How two models differ.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ModelDifference {
     /// Whether they do not.
     pub same: bool,
