@@ -35,6 +35,7 @@ mod show_vocabulary;
 mod style;
 mod validate;
 mod watchdog;
+mod why;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -65,6 +66,7 @@ enum Command {
     Demo(demo::Demo),
     Learn(learn::Learn),
     Show(show::Show),
+    Why(why::Why),
     Diff(diff::Diff),
     Plan(plan::Plan),
     Export(export::Export),
@@ -93,6 +95,7 @@ fn main() -> ExitCode {
         Command::Demo(demo) => demo.run(clock),
         Command::Learn(learn) => learn.run(clock, quiet),
         Command::Show(show) => show.run(),
+        Command::Why(why) => why.run(quiet),
         Command::Diff(diff) => diff.run(),
         Command::Plan(plan) => plan.run(clock, quiet),
         Command::Export(export) => export.run(clock, quiet),

@@ -258,6 +258,7 @@
 //! | [`learn`]   | Algorithm 1: individual and type-generalized actions from demonstrations          |
 //! | [`imagine`] | Algorithm 2: imagined actions for goals that cannot be reached                    |
 //! | [`plan`]    | grounding, landmarks, heuristic search, why there is no plan                      |
+//! | [`belief`]  | how likely a call works, and what speaks against it                               |
 //! | [`check`](mod@check) | replays plans by the plainest semantics                                  |
 //! | [`agent`]   | an episode: propose, act, monitor, exclude, retry, replan                         |
 //! | [`words`]   | what is said of plans, answers, accounts and events, for people and programs      |
@@ -293,6 +294,7 @@ pub use typelift_world::{
 };
 
 pub use typelift_agent as agent;
+pub use typelift_belief as belief;
 pub use typelift_bridge as bridge;
 pub use typelift_check as check;
 pub use typelift_imagine as imagine;

@@ -4,11 +4,13 @@ use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema};
 use typelift_agent::{Episode, Input};
 use typelift_model::LearnedModel;
-use typelift_words::{AccountView, AnswerView, InspectionView, ModelDifference, WireCommand, WireEvent};
+use typelift_words::{
+    AccountView, AnswerView, CallQuestion, InspectionView, ModelDifference, WhyView, WireCommand, WireEvent,
+};
 use typelift_world::{Answer, Request, Scene, TaskFile, TraceLine};
 
 /// Each schema, by the name that its file has. A trace is described by the schema of one of its lines.
-pub fn schemas() -> [(&'static str, serde_json::Value); 13] {
+pub fn schemas() -> [(&'static str, serde_json::Value); 15] {
     [
         ("trace", schema::<TraceLine<'_>>("A line of a trace, format trace/1")),
         ("task", schema::<TaskFile>("A task, format task/1")),
@@ -23,6 +25,8 @@ pub fn schemas() -> [(&'static str, serde_json::Value); 13] {
         ("event", schema::<WireEvent>("Something that happens during an episode, a line of `run --events`")),
         ("env-request", schema::<Request>("A request to an environment, protocol env/1")),
         ("env-answer", schema::<Answer>("An environment's answer, protocol env/1")),
+        ("call-question", schema::<CallQuestion>("A call that is asked about, a line of `why --calls`")),
+        ("why", schema::<WhyView>("What is believed of a call, a line of `why --json`")),
         ("episode", schema::<Episode>("A saved episode, format episode/1")),
         ("episode-command", schema::<WireCommand>("What an episode tells its driver to do")),
         ("episode-input", schema::<Input<Scene>>("What a driver reports to its episode")),

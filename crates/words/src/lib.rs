@@ -14,6 +14,7 @@
 //! | `learning.rs`    | what learning could make nothing of, and took too far   |
 //! | `account.rs`     | how an episode went                                     |
 //! | `event.rs`       | what happens during an episode                          |
+//! | `why.rs`         | what is believed of a call                              |
 //! | `wire.rs`        | commands and events for programs outside                |
 #![deny(missing_docs)]
 
@@ -26,6 +27,7 @@ mod inspection;
 mod learning;
 mod plan;
 mod text;
+mod why;
 mod wire;
 
 pub use account::{AccountView, BrokenOffView, ExclusionView, FailureView, summary};
@@ -37,4 +39,5 @@ pub use inspection::{FindingView, InspectionView, TriedView, inspection_lines};
 pub use learning::{TypeNote, missing_actor, unbounded_parameters, why_unexplained};
 pub use plan::{PlanView, StepView, imagined_note, numbered_steps, plan_size};
 pub use text::{Role, Span, Text, count, places};
+pub use why::{CallQuestion, WhyView, why_lines};
 pub use wire::{WireCommand, WireEvent, wire_command, wire_event};

@@ -2,6 +2,7 @@
 
 mod acting;
 mod arities;
+mod asking_why;
 mod bad_models;
 mod bad_tasks;
 mod bad_traces;

@@ -1,0 +1,145 @@
+//! What is believed of one action: the blame of its failures, shared.
+
+use std::collections::BTreeMap;
+
+use typelift_model::{ActionSchema, Hierarchy, LiftedAtom, Observations, Symbol, TypeId};
+
+use crate::CHANCE;
+use crate::outcome::{Outcome, outcomes, worked_at};
+use crate::suspicion::{Pair, literal_odds, pair_odds, pairs};
+use crate::types::{Seen, TypeBelief};
+
+/// How often the blame is shared anew.
+const ROUNDS: usize = 8;
+
+/// However often the same fails, chance stays thinkable: so often in a row.
+const MOST_BY_CHANCE: f64 = 3.0;
+
+/// Something that can be to blame for a failure of an action.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Cause {
+    /// The type at a parameter.
+    Type(usize, TypeId),
+    /// Two types together.
+    Together(Pair),
+    /// A literal that did not hold.
+    Missing(LiftedAtom),
+    /// Nothing that is known.
+    Chance,
+}
+
+/// What is believed of one action.
+#[derive(Debug, Clone)]
+pub struct ActionBelief {
+    /// Its name.
+    pub action: Symbol,
+    /// Whether the call ever did anything else than the action says.
+    pub has_failed: bool,
+    /// The type of each parameter, which covers what worked.
+    covers: Vec<TypeId>,
+    types: Vec<TypeBelief>,
+    outcomes: Vec<Outcome>,
+    blamed: BTreeMap<Cause, f64>,
+    literals: BTreeMap<LiftedAtom, f64>,
+}
+
+impl ActionBelief {
+    /// What observations say of a learned action. In time of the failures, times the types of the hierarchy.
+    pub fn new(schema: &ActionSchema, observed: &Observations, hierarchy: &Hierarchy) -> Self {
+        let outcomes = outcomes(schema, observed, hierarchy);
+        let mut belief = Self {
+            action: schema.name.clone(),
+            has_failed: outcomes.iter().any(|outcome| !outcome.worked),
+            covers: schema.parameters.iter().map(|parameter| parameter.ty).collect(),
+            types: Vec::new(),
+            literals: literal_odds(schema, &outcomes),
+            blamed: BTreeMap::new(),
+            outcomes,
+        };
+        belief.believe_types(hierarchy);
+        let failures: Vec<Outcome> = belief.outcomes.iter().filter(|outcome| !outcome.worked).cloned().collect();
+        let mut own = vec![BTreeMap::new(); failures.len()];
+        for _ in 0..ROUNDS {
+            let shared = failures.iter().zip(&own);
+            own = shared.map(|(failure, own)| belief.shares(hierarchy, failure, own)).collect();
+            belief.blamed = BTreeMap::new();
+            for (cause, share) in own.iter().flatten() {
+                *belief.blamed.entry(cause.clone()).or_default() += share;
+            }
+            belief.believe_types(hierarchy);
+        }
+        belief
+    }
+
+    fn believe_types(&mut self, hierarchy: &Hierarchy) {
+        let worked = worked_at(&self.outcomes, self.covers.len());
+        let mut seen: Vec<BTreeMap<TypeId, Seen>> = worked
+            .into_iter()
+            .map(|worked| worked.into_iter().map(|(ty, worked)| (ty, Seen { worked, blamed: 0.0 })).collect())
+            .collect();
+        for (cause, blamed) in &self.blamed {
+            if let Cause::Type(at, ty) = cause {
+                seen[*at].entry(*ty).or_default().blamed += blamed;
+            }
+        }
+        self.types = seen.iter().map(|seen| TypeBelief::new(hierarchy, seen)).collect();
+    }
+
+    /// What may be to blame where these types are used and these atoms do not hold, with its odds.
+    pub(crate) fn causes(
+        &self,
+        hierarchy: &Hierarchy,
+        types: &[Option<TypeId>],
+        missing: impl IntoIterator<Item = LiftedAtom>,
+    ) -> Vec<(Cause, f64)> {
+        let blamed = |cause: &Cause| CHANCE.powf(-self.blamed.get(cause).copied().unwrap_or_default());
+        let mut causes = Vec::new();
+        for (at, ty) in types.iter().enumerate().filter_map(|(at, ty)| Some((at, (*ty)?))) {
+            if !self.is_settled(hierarchy, at, ty) {
+                let accepted = self.types[at].accepts(ty);
+                causes.push((Cause::Type(at, ty), (1.0 - accepted) / accepted));
+            }
+        }
+        if self.has_failed {
+            for pair in pairs(types) {
+                let (odds, cause) = (pair_odds(&pair, &self.outcomes), Cause::Together(pair));
+                causes.push((cause.clone(), odds * blamed(&cause)));
+            }
+        }
+        for atom in missing {
+            let odds = self.literals.get(&atom).copied().unwrap_or_default();
+            let cause = Cause::Missing(atom);
+            causes.push((cause.clone(), odds * blamed(&cause)));
+        }
+        causes
+    }
+
+    /// The literals that may be needed.
+    pub(crate) fn literals(&self) -> impl Iterator<Item = &LiftedAtom> {
+        self.literals.keys()
+    }
+
+    /// With successes alone, whatever the generalized type covers is accepted, as in the paper.
+    fn is_settled(&self, hierarchy: &Hierarchy, at: usize, ty: TypeId) -> bool {
+        !self.has_failed && hierarchy.is_a(ty, self.covers[at])
+    }
+
+    /// The blame of one failure, shared among what may have caused it, in proportion to the odds that all other
+    /// observations give; `own` is the blame that it gave before, which is taken out of them.
+    fn shares(&self, hierarchy: &Hierarchy, failure: &Outcome, own: &BTreeMap<Cause, f64>) -> BTreeMap<Cause, f64> {
+        let count = failure.count as f64;
+        let mut odds = self.causes(hierarchy, &failure.types, self.missing_in(failure));
+        for (cause, odds) in &mut odds {
+            *odds *= CHANCE.powf(own.get(cause).copied().unwrap_or_default());
+        }
+        odds.push((Cause::Chance, CHANCE.powf(count.min(MOST_BY_CHANCE))));
+        let sum: f64 = odds.iter().map(|(_, odds)| odds).sum();
+        odds.into_iter().map(|(cause, odds)| (cause, count * odds / sum)).collect()
+    }
+
+    /// The literals that held in a success and are known not to have held here.
+    fn missing_in(&self, outcome: &Outcome) -> Vec<LiftedAtom> {
+        let missing = |atom: &&LiftedAtom| outcome.tells_of(atom) && !outcome.held.contains(*atom);
+        self.literals.keys().filter(missing).cloned().collect()
+    }
+}

@@ -1,0 +1,33 @@
+//! How likely a call works, and what speaks against it: a pure function of what was observed.
+//!
+//! A call works if the type in each of its places is accepted there, what has to hold before holds, and no two of its types
+//! get in each other's way; and there is chance. So a failure is a clause: one of these is to blame. What else was observed
+//! speaks for or against each: a type that worked elsewhere in that place, a literal that a success did without. The blame of
+//! a failure is shared among what is left, in proportion to its odds, and counts in turn as that much evidence; a fixed
+//! number of rounds, so that the same observations always give the same belief.
+//!
+//! With successes alone it is Algorithm 1: what the generalized type covers is accepted. From the first failure on, the types
+//! of each place have a [signed belief](TypeBelief) over the hierarchy.
+//!
+//! | file | what it holds |
+//! |---|---|
+//! | `types` | which types a place accepts |
+//! | `outcome` | what was observed of an action: what worked, and what did not |
+//! | `suspicion` | literals and pairs of types, with the odds that they matter |
+//! | `action` | all of it for one action: sharing the blame |
+//! | `judgement` | what is read off for a call |
+
+#![deny(missing_docs)]
+
+mod action;
+mod judgement;
+mod outcome;
+mod suspicion;
+mod types;
+
+pub use action::ActionBelief;
+pub use judgement::{Belief, Culprit, Judgement, Question, Suspect};
+pub use types::TypeBelief;
+
+/// How often something happens that nothing explains.
+pub(crate) const CHANCE: f64 = 0.02;

@@ -1,0 +1,63 @@
+//! What can be to blame besides the type in a place: a literal that has to hold, and two types that do not go together. Each
+//! has odds, as they are before any failure has its share of blame.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use typelift_model::{ActionSchema, LiftedAtom, TypeId};
+
+use crate::CHANCE;
+use crate::outcome::Outcome;
+
+/// How often a literal holds that nothing asks for.
+const HOLDS_ANYWAY: f64 = 0.7;
+/// The odds that a literal is needed: what the action makes false, what is of a kind that it changes, anything else.
+const DELETED: f64 = 20.0;
+const TOUCHED: f64 = 2.0;
+const OTHER: f64 = 1.0;
+
+/// The odds that two types do not go together, though each goes with others.
+const PAIR: f64 = 0.06;
+
+/// Two parameters and the types there.
+pub(crate) type Pair = ((usize, TypeId), (usize, TypeId));
+
+/// The odds that each literal is needed, of those that held in some success.
+pub(crate) fn literal_odds(schema: &ActionSchema, outcomes: &[Outcome]) -> BTreeMap<LiftedAtom, f64> {
+    let worked = || outcomes.iter().filter(|outcome| outcome.worked);
+    let atoms: BTreeSet<&LiftedAtom> = worked().flat_map(|outcome| &outcome.held).collect();
+    let deleted: BTreeSet<&LiftedAtom> = schema.deletes().collect();
+    let touched: BTreeSet<_> = schema.effects.iter().map(|effect| &effect.literal.atom.predicate).collect();
+    let odds = |atom: &LiftedAtom| {
+        let prior = match atom {
+            _ if deleted.contains(atom) => DELETED,
+            _ if touched.contains(&atom.predicate) => TOUCHED,
+            _ => OTHER,
+        };
+        let told = || worked().filter(|outcome| outcome.tells_of(atom));
+        let count = |held: bool| -> f64 {
+            told().filter(|outcome| outcome.held.contains(atom) == held).map(|outcome| outcome.count as f64).sum()
+        };
+        prior * HOLDS_ANYWAY.powf(-count(true)) * CHANCE.powf(count(false))
+    };
+    atoms.into_iter().map(|atom| (atom.clone(), odds(atom).clamp(1e-12, 1e12))).collect()
+}
+
+/// Every pair of types of an outcome.
+pub(crate) fn pairs(types: &[Option<TypeId>]) -> Vec<Pair> {
+    let known: Vec<(usize, TypeId)> = types.iter().enumerate().filter_map(|(at, ty)| Some((at, (*ty)?))).collect();
+    let mut pairs = Vec::new();
+    for (i, &one) in known.iter().enumerate() {
+        pairs.extend(known[i + 1..].iter().map(|&other| (one, other)));
+    }
+    pairs
+}
+
+/// The odds that a pair does not go together: small, and next to nothing once it worked.
+pub(crate) fn pair_odds(pair: &Pair, outcomes: &[Outcome]) -> f64 {
+    let has = |outcome: &&Outcome| {
+        let at = |(at, ty): (usize, TypeId)| outcome.types.get(at).copied().flatten() == Some(ty);
+        outcome.worked && at(pair.0) && at(pair.1)
+    };
+    let worked: u64 = outcomes.iter().filter(has).map(|outcome| outcome.count).sum();
+    PAIR * CHANCE.powf(worked.min(6) as f64)
+}

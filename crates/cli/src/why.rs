@@ -1,0 +1,151 @@
+//! `typelift why`.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use typelift::belief::{Belief, Question};
+use typelift::model::{GroundAtom, GroundCall, Hierarchy, LearnedModel, State, Symbol, TypeId, json_message};
+use typelift::words::{CallQuestion, WhyView, why_lines};
+use typelift::world::{FileError, Parser, read_text};
+
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::files::{ModelInput, TaskInput, read_model_input};
+use crate::style::painted;
+
+/// Say how likely a call works, and what speaks against it
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  typelift why model.json 'USE(agent_1, cutboard_1, coconut_1)' --task task.json
+  typelift why model.json 'USE(agent, cutboard, coconut)'
+  typelift why model.json --calls calls.jsonl --json
+
+A model's demonstrations and recorded failures speak for a call, or against the
+type of an object, two types together, or a literal that does not hold. An
+object that the task does not have is taken for one of the type of its name,
+without a number: cutboard_1 is a cutboard.
+
+Exit codes: 0 something is known of every call, 12 not of every one, 31 bad
+input, 36 wrong usage.")]
+pub(crate) struct Why {
+    /// A learned model
+    model: PathBuf,
+    /// Calls, as `PICK(agent_1, counter_3, lettuce_1)`
+    #[arg(value_name = "CALL", required_unless_present = "calls")]
+    call: Vec<String>,
+    /// Ask in the state of this task
+    #[arg(long, value_name = "FILE")]
+    task: Option<PathBuf>,
+    /// Ask about the calls of a file of JSON Lines, each with types or a state
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["call", "task"])]
+    calls: Option<PathBuf>,
+    /// Print one JSON object a call
+    #[arg(long)]
+    json: bool,
+}
+
+/// A call with what is said of its objects.
+struct Asked {
+    call: GroundCall,
+    types: Vec<Option<TypeId>>,
+    state: Option<State>,
+}
+
+impl Why {
+    pub(crate) fn run(&self, quiet: bool) -> Result<Exit, Failure> {
+        let input = read_model_input(&self.model, None)?;
+        let asked = match &self.calls {
+            Some(file) => asked_in_file(file, learned(&input, &self.model)?)?,
+            None => self.asked_by_name(&input, quiet)?,
+        };
+        let belief = Belief::of(learned(&input, &self.model)?);
+        let mut out = anstream::stdout().lock();
+        let mut all_known = true;
+        for Asked { call, types, state } in asked {
+            let question = Question { call: &call, types: &types, state: state.as_ref() };
+            let judgement = belief.judge(&question);
+            let view = WhyView::new(call, judgement);
+            all_known &= !view.unknown;
+            if self.json {
+                writeln!(out, "{}", serde_json::to_string(&view).unwrap_or_default())?;
+            } else {
+                for line in why_lines(&view) {
+                    writeln!(out, "{}", painted(&line))?;
+                }
+            }
+        }
+        Ok(if all_known { Exit::Success } else { Exit::NotAchieved })
+    }
+
+    /// The calls of the command line, in the state of the task.
+    fn asked_by_name(&self, input: &ModelInput, quiet: bool) -> Result<Vec<Asked>, Failure> {
+        let learned = learned(input, &self.model)?;
+        let state = self.task.as_ref().map(|task| state_of(input, learned, task, quiet)).transpose()?;
+        let asked = self.call.iter().map(|text| {
+            let atom = GroundAtom::parse(text).map_err(|error| {
+                Failure::new(Exit::Usage, error).with_hint("A call is written as PICK(agent_1, counter_3, lettuce_1).")
+            })?;
+            let call = GroundCall { name: atom.predicate, args: atom.args };
+            let hierarchy = &learned.model.hierarchy;
+            let ty = |arg: &Symbol| {
+                let in_state = state.as_ref().and_then(|state| state.objects.get(arg).copied());
+                in_state.or_else(|| type_by_name(hierarchy, arg))
+            };
+            let types = call.args.iter().map(ty).collect();
+            Ok(Asked { types, state: state.clone(), call })
+        });
+        asked.collect()
+    }
+}
+
+/// The model with its evidence: a domain has none.
+fn learned<'m>(input: &'m ModelInput, path: &Path) -> Result<&'m LearnedModel, Failure> {
+    match input {
+        ModelInput::Learned(learned) => Ok(learned),
+        ModelInput::Given(_) => {
+            let message = "a PDDL domain says what works; only what was learned can be doubted";
+            Err(FileError::new(path, message).into())
+        }
+    }
+}
+
+fn state_of(input: &ModelInput, learned: &LearnedModel, task: &Path, quiet: bool) -> Result<State, Failure> {
+    match input.read_task(task, quiet)? {
+        TaskInput::Problem(problem) => Ok(problem.1.init),
+        TaskInput::File(file) => {
+            let mut parser =
+                Parser::new(learned.model.hierarchy.clone(), learned.parse.clone()).knowing(&learned.model.predicates);
+            let task_read = file.task(&mut parser, &learned.model.predicates);
+            task_read.map(|task| task.init).map_err(|error| Failure::from(error.in_file(task, &parser)))
+        }
+    }
+}
+
+/// The type that an object's name says: itself, or itself without a number.
+fn type_by_name(hierarchy: &Hierarchy, object: &Symbol) -> Option<TypeId> {
+    let name = object.as_str();
+    let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
+    let stem = if stem.len() < name.len() { stem.trim_end_matches(['_', '-']) } else { name };
+    hierarchy.id(name).or_else(|| hierarchy.id(stem))
+}
+
+/// The calls of a file, a line each.
+fn asked_in_file(path: &Path, learned: &LearnedModel) -> Result<Vec<Asked>, Failure> {
+    let text = read_text(path)?;
+    let hierarchy = &learned.model.hierarchy;
+    let mut parser = Parser::new(hierarchy.clone(), learned.parse.clone()).knowing(&learned.model.predicates);
+    let mut asked = Vec::new();
+    for (number, line) in text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty()) {
+        let question: CallQuestion =
+            serde_json::from_str(line).map_err(|error| FileError::at_line(path, number + 1, json_message(&error)))?;
+        let state = question.state.as_ref().map(|scene| parser.parse(scene)).transpose();
+        let state = state.map_err(|error| FileError::at_line(path, number + 1, error.to_string()))?;
+        let ty = |arg: &Symbol| match question.types.get(arg) {
+            Some(ty) => hierarchy.id(ty.as_str()),
+            None => state.as_ref().and_then(|state| state.objects.get(arg).copied()),
+        };
+        let types = question.call.args.iter().map(ty).collect();
+        asked.push(Asked { types, state, call: question.call });
+    }
+    Ok(asked)
+}

@@ -1,0 +1,135 @@
+//! `typelift why`: what speaks for and against a call.
+
+use crate::common::Folder;
+
+const TYPES: &str = r#"{"tool": "object", "saw": "tool", "axe": "tool", "stuff": "object", "wood": "stuff",
+  "oak": "wood", "pine": "wood", "birch": "wood", "bone": "stuff"}"#;
+
+/// The trace of this number of one call of `cut`, and whether it was done. `dry` says whether that held of what was to be
+/// cut.
+fn trace(number: usize, tool: &str, stuff: &str, dry: bool, done: bool) -> String {
+    let piece = format!("piece_{number}");
+    let objects = format!(r#"{{"tool_1":"{tool}","{piece}":"{stuff}"}}"#);
+    let dry = if dry { format!(r#","dry({piece})""#) } else { String::new() };
+    let state = |what: &str| format!(r#"{{"state":{{"objects":{objects},"atoms":["{what}({piece})"{dry}]}}}}"#);
+    let flag = if done { "" } else { r#","executed":false"# };
+    let action = format!(r#"{{"action":{{"name":"cut","args":["tool_1","{piece}"]{flag}}}}}"#);
+    let after = state(if done { "short" } else { "long" });
+    format!("{{\"format\":\"trace/1\"}}\n{}\n{action}\n{after}\n", state("long"))
+}
+
+/// A model of these traces: tool, stuff, whether it was dry, whether it was done.
+fn model(traces: &[(&str, &str, bool, bool)]) -> Folder {
+    let folder = Folder::new();
+    folder.write("types.json", TYPES);
+    std::fs::create_dir(folder.path("demos")).expect("a folder");
+    for (i, (tool, stuff, dry, done)) in traces.iter().enumerate() {
+        folder.write(&format!("demos/{i}.jsonl"), trace(i, tool, stuff, *dry, *done));
+    }
+    folder.run("learn demos --types types.json -o model.json -q").succeeds();
+    folder
+}
+
+fn why(folder: &Folder, call: &str) -> serde_json::Value {
+    let ended = folder.run(&format!("why model.json '{call}' --json"));
+    ended.succeeds();
+    serde_json::from_str(&ended.out).expect("JSON")
+}
+
+/// How likely a call works, in hundredths, and what is suspected first.
+fn asked(folder: &Folder, call: &str) -> (u64, String) {
+    let said = why(folder, call);
+    let first = &said["suspects"][0];
+    let first = format!("{} {}", first["kind"].as_str().unwrap_or("none"), first["what"].as_str().unwrap_or(""));
+    ((100.0 * said["p"].as_f64().expect("a chance")).round() as u64, first)
+}
+
+const WORKED: [(&str, &str, bool, bool); 3] =
+    [("saw", "oak", true, true), ("saw", "pine", true, true), ("axe", "oak", true, true)];
+
+#[test]
+fn what_never_failed_works_as_far_as_it_was_generalized() {
+    let folder = model(&WORKED);
+    assert_eq!(asked(&folder, "cut(saw, oak)"), (100, "none ".to_owned()));
+    // Birch is wood, as oak and pine are.
+    assert_eq!(asked(&folder, "cut(saw, birch)").0, 100);
+    // Bone is no wood: less likely, since imagined.
+    let (chance, first) = asked(&folder, "cut(saw, bone)");
+    assert!(chance < 90, "{chance}");
+    assert_eq!(first, "type bone");
+}
+
+#[test]
+fn the_type_that_never_worked_is_blamed_and_its_kin_is_not() {
+    let folder = model(&[&WORKED[..], &[("saw", "bone", true, false)]].concat());
+    let (chance, first) = asked(&folder, "cut(saw, bone)");
+    assert!(chance < 30, "{chance}");
+    assert_eq!(first, "type bone");
+    assert!(asked(&folder, "cut(saw, birch)").0 > 60);
+    assert!(asked(&folder, "cut(saw, oak)").0 > 90);
+}
+
+#[test]
+fn a_type_that_works_with_another_tool_is_cleared_and_the_pair_is_left() {
+    let bone = [("saw", "bone", true, false), ("axe", "bone", true, true)];
+    let folder = model(&[&WORKED[..], &bone].concat());
+    let (once, first) = asked(&folder, "cut(saw, bone)");
+    // It may have been chance.
+    assert!((30..60).contains(&once), "{once}");
+    assert_eq!(first, "pair saw with bone");
+    assert!(asked(&folder, "cut(axe, bone)").0 > 80);
+    let folder = model(&[&WORKED[..], &bone, &bone[..1]].concat());
+    let (twice, first) = asked(&folder, "cut(saw, bone)");
+    assert!(twice < 5, "{twice}");
+    assert_eq!(first, "pair saw with bone");
+    assert!(asked(&folder, "cut(saw, oak)").0 > 90);
+}
+
+#[test]
+fn a_literal_that_no_success_did_without_is_blamed_where_the_types_are_cleared() {
+    let folder = model(&[&WORKED[..], &[("saw", "oak", false, false), ("saw", "pine", false, false)]].concat());
+    folder.write(
+        "wet.json",
+        r#"{"format":"task/1","goal":["short(piece_1)"],
+            "state":{"objects":{"tool_1":"saw","piece_1":"oak"},"atoms":["long(piece_1)"]}}"#,
+    );
+    let wet = why(&folder, "cut(tool_1, piece_1)' --task 'wet.json");
+    assert!(wet["p"].as_f64().expect("a chance") < 0.1, "{wet}");
+    assert_eq!((&wet["suspects"][0]["kind"], &wet["suspects"][0]["what"]), (&"literal".into(), &"dry(piece_1)".into()));
+    assert!(asked(&folder, "cut(saw, oak)").0 > 90, "dry oak is cut");
+}
+
+#[test]
+fn calls_of_a_file_are_answered_line_for_line() {
+    let folder = model(&WORKED);
+    folder.write(
+        "calls.jsonl",
+        concat!(
+            r#"{"call":{"name":"cut","args":["a","b"]},"types":{"a":"saw","b":"oak"}}"#,
+            "\n",
+            r#"{"call":{"name":"cut","args":["a","b"]},"state":{"objects":{"a":"saw","b":"oak"},"atoms":[]}}"#,
+            "\n",
+            r#"{"call":{"name":"paint","args":["a"]},"types":{"a":"saw"}}"#,
+        ),
+    );
+    let ended = folder.run("why model.json --calls calls.jsonl --json");
+    assert_eq!(ended.code, 12, "{ended}");
+    let lines: Vec<serde_json::Value> =
+        ended.out.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect();
+    assert_eq!(lines.len(), 3);
+    assert_eq!((lines[0]["p"].as_f64(), lines[0]["unknown"].as_bool()), (Some(1.0), Some(false)));
+    assert!(lines[1]["p"].as_f64() < Some(0.5), "nothing that always held holds there: {}", lines[1]);
+    assert_eq!(lines[2]["unknown"].as_bool(), Some(true));
+}
+
+#[test]
+fn what_is_refused() {
+    let folder = model(&WORKED);
+    folder.write("calls.jsonl", "{\"call\":{\"name\":\"cut\",\"args\":[]}}\n{\"cal\":1}\n");
+    let refused = folder.refuses(31, "why model.json --calls calls.jsonl");
+    assert!(refused.err.contains("calls.jsonl:2"), "{refused}");
+    folder.write("domain.pddl", "(define (domain d) (:predicates (p)) (:action a :effect (p)))");
+    assert!(folder.refuses(31, "why domain.pddl 'a()'").err.contains("only what was learned"));
+    assert!(folder.refuses(36, "why model.json 'cut(saw'").err.contains("PICK("));
+    assert_eq!(folder.run("why model.json").code, 36);
+}

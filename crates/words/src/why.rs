@@ -1,0 +1,78 @@
+//! What is believed of a call: whether it works, by which action, and what speaks against it.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+use typelift_belief::{Culprit, Judgement, Suspect};
+use typelift_model::{GroundCall, Symbol};
+use typelift_world::Scene;
+
+use crate::text::{Role, Text};
+
+/// A call that a program asks about: a line of JSON.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct CallQuestion {
+    /// The call.
+    pub call: GroundCall,
+    /// The types of its objects; not needed for those of the state.
+    #[serde(default)]
+    pub types: BTreeMap<Symbol, Symbol>,
+    /// Where it is used; without a state every literal counts as true.
+    #[serde(default)]
+    pub state: Option<Scene>,
+    /// The instance of the world, of which a model alone knows nothing.
+    #[serde(default)]
+    pub instance: Option<Symbol>,
+}
+
+/// What is believed of a call, for programs.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct WhyView {
+    /// The call.
+    pub call: GroundCall,
+    /// How likely it is, from 0 to 1, that what the action predicts happens.
+    pub p: f64,
+    /// The action that predicts it; none where nothing is known.
+    pub action: Option<Symbol>,
+    /// What speaks against it, the greatest share first.
+    pub suspects: Vec<Suspect>,
+    /// Whether nothing is known of such a call: of its name, its number of arguments, or the type of one of them.
+    pub unknown: bool,
+}
+
+impl WhyView {
+    /// The view of a judgement.
+    pub fn new(call: GroundCall, judgement: Judgement) -> Self {
+        let Judgement { p, action, suspects } = judgement;
+        Self { call, p: rounded(p), unknown: action.is_none(), action, suspects }
+    }
+}
+
+/// Four digits are more than is known.
+fn rounded(p: f64) -> f64 {
+    (p * 10_000.0).round() / 10_000.0
+}
+
+/// The same for people: how likely it works, then a line for each thing that speaks against it.
+pub fn why_lines(view: &WhyView) -> Vec<Text> {
+    let Some(action) = &view.action else {
+        return vec![Text::new().plain(format!("{}: no action is known for such a call", view.call))];
+    };
+    let role = if view.p < 0.5 { Role::Bad } else { Role::Good };
+    let head = Text::new().plain(format!("{}: ", view.call));
+    let mut lines = vec![head.with(role, format!("works with {:.2}", view.p)).plain(format!(", by {action}"))];
+    let against = view.suspects.iter().map(|suspect| {
+        let what = match suspect.kind {
+            Culprit::Type => format!("{} may not do there", suspect.what),
+            Culprit::Pair => format!("{} may not go together", suspect.what),
+            Culprit::Literal => format!("{} does not hold, and may be needed", suspect.what),
+            Culprit::Chance => "chance".to_owned(),
+        };
+        Text::new().plain(format!("  {:>3.0} %  {what}", 100.0 * suspect.share))
+    });
+    lines.extend(against);
+    lines
+}
