@@ -104,7 +104,7 @@ pub fn run_in(
     let reset = Reset { seed, scenario: Some(task.scenario.clone()) };
     let mut events: Vec<Event> = Vec::new();
     let told = world.told.len();
-    let ran = run(&mut episode, world, &reset, &mut parser, confirm, &mut events, None);
+    let ran = run(&mut episode, world, &reset, &mut parser, confirm, &mut events, &mut []);
     let account = ran.expect("the simulator works");
     let left = world.observe().map(|scene| parser.parse(&scene).expect("a state")).expect("the simulator works");
     assert_eq!(account.solved(), left.satisfies(&task.goal), "{}: the world agrees with the account", task.name);

@@ -50,7 +50,7 @@ fn recorded(
     let (mut heard, mut recorder) = (Heard::default(), Recorder::new(folder, &task.name, header));
     let mut parser = Parser::new(hierarchy(), ParseConfig::default());
     let mut approve = |_: &Plan| Confirmation::Approve;
-    let ran = run(&mut episode, world, &reset, &mut parser, &mut approve, &mut heard, Some(&mut recorder));
+    let ran = run(&mut episode, world, &reset, &mut parser, &mut approve, &mut heard, &mut [&mut recorder]);
     (ran.ok(), heard, recorder)
 }
 
@@ -194,8 +194,8 @@ fn a_restored_episode_is_recorded_from_its_next_step() {
         let folder = tempfile::tempdir().expect("a folder");
         let mut recorder = Recorder::new(folder.path(), "T1.1", TraceHeader::default());
         let (mut heard, mut approve) = (Heard::default(), |_: &Plan| Confirmation::Approve);
-        let recorded = Some(&mut recorder);
-        let account = run(&mut episode, &mut world, &reset, &mut parser, &mut approve, &mut heard, recorded);
+        let account =
+            run(&mut episode, &mut world, &reset, &mut parser, &mut approve, &mut heard, &mut [&mut recorder]);
         assert!(account.expect("the simulator works").solved());
         assert_eq!(world.resets, 1, "it goes on where it was");
         if is_under_way {

@@ -1,9 +1,10 @@
 //! A blocking driver: an episode over a world.
 
 use thiserror::Error;
-use typelift_model::{Plan, State};
+use typelift_model::{Plan, State, Symbol};
 use typelift_world::{
-    Acted, FileError, ParseError, Parser, Record, Recorder, Reset, Scene, TraceAction, World, WorldError, instance_of,
+    Acted, Beginning, FileError, ParseError, Parser, Record, RecordSink, Reset, Scene, TraceAction, World, WorldError,
+    instance_of,
 };
 
 use crate::account::Account;
@@ -52,8 +53,8 @@ pub enum RunError {
 /// Drives an episode over a world; `confirm` is asked before each plan is executed. An action that is not finished in time
 /// is followed by an observation, as long as the world gives one.
 ///
-/// With a recorder, each step is on the disk before the observer is told of it and before the next action is sent. Of an
-/// episode that was restored, a step that had been commanded before is not recorded: what was observed before it is not
+/// Each of the sinks is given each step before the observer is told of it and before the next action is sent: with a
+/// [`Recorder`](typelift_world::Recorder), it is on the disk by then. Of an episode that was restored, a step that had been commanded before is not recorded: what was observed before it is not
 /// known in the world's own words. The trace begins with what is observed after it, or before the next step.
 ///
 /// # Errors
@@ -65,9 +66,9 @@ pub fn run(
     parser: &mut Parser,
     confirm: &mut dyn FnMut(&Plan) -> Confirmation,
     observer: &mut dyn Observer,
-    recorder: Option<&mut Recorder>,
+    sinks: &mut [&mut dyn RecordSink],
 ) -> Result<Account, RunError> {
-    let mut recording = RecordingObserver::new(observer, recorder);
+    let mut recording = RecordingObserver::new(observer, sinks);
     let mut input = Input::Started;
     loop {
         let command = episode.step(input, &mut recording);
@@ -95,7 +96,7 @@ pub fn run(
                 Confirmation::Stop => Input::Stop,
             },
             Command::Act { id, call } => {
-                recording.begin(world)?;
+                recording.begin(world, episode.instance())?;
                 match world.act(&call) {
                     Err(WorldError::TimedOut { .. }) => {
                         recording.is_late = true;
@@ -131,9 +132,9 @@ struct StepRecord {
 }
 
 /// Records each step as the environment told it, and only then tells the observer.
-struct RecordingObserver<'a> {
+struct RecordingObserver<'a, 's> {
     observer: &'a mut dyn Observer,
-    recorder: Option<&'a mut Recorder>,
+    sinks: &'a mut [&'s mut dyn RecordSink],
     /// What was observed where a trace is to begin, as long as nothing was done.
     first: Option<Scene>,
     /// Whether a trace was begun.
@@ -146,20 +147,23 @@ struct RecordingObserver<'a> {
     error: Option<FileError>,
 }
 
-impl<'a> RecordingObserver<'a> {
-    fn new(observer: &'a mut dyn Observer, recorder: Option<&'a mut Recorder>) -> Self {
-        Self { observer, recorder, first: None, has_begun: false, is_late: false, result: None, error: None }
+impl<'a, 's> RecordingObserver<'a, 's> {
+    fn new(observer: &'a mut dyn Observer, sinks: &'a mut [&'s mut dyn RecordSink]) -> Self {
+        Self { observer, sinks, first: None, has_begun: false, is_late: false, result: None, error: None }
     }
 
-    /// Something is about to be done: begins a trace if it is the first action after a reset, or the first of all.
-    fn begin(&mut self, world: &mut dyn World) -> Result<(), RunError> {
-        let Some(recorder) = &mut self.recorder else { return Ok(()) };
+    /// Something is about to be done: a trace begins if it is the first action after a reset, or the first of all.
+    fn begin(&mut self, world: &mut dyn World, instance: &Symbol) -> Result<(), RunError> {
+        if self.sinks.is_empty() {
+            return Ok(());
+        }
         let first = match self.first.take() {
             None if !self.has_begun => Some(world.observe()?),
             first => first,
         };
         if let Some(first) = first {
-            recorder.begin(&first)?;
+            let beginning = Beginning { first: &first, environment: world.name(), instance: instance.clone() };
+            self.sinks.iter_mut().try_for_each(|sink| sink.begin(&beginning))?;
             self.has_begun = true;
         }
         Ok(())
@@ -182,12 +186,13 @@ impl<'a> RecordingObserver<'a> {
     }
 }
 
-impl Observer for RecordingObserver<'_> {
+impl Observer for RecordingObserver<'_, '_> {
     fn record(&mut self, record: &Record) {
-        if let (Some(recorder), Some(StepRecord { after, executed, reason })) = (&mut self.recorder, self.result.take())
+        if let Some(StepRecord { after, executed, reason }) = self.result.take()
+            && !self.sinks.is_empty()
         {
             let action = TraceAction { executed, reason, ..record.action.clone() };
-            self.error = recorder.step(&action, &after).err();
+            self.error = self.sinks.iter_mut().try_for_each(|sink| sink.step(&action, &after)).err();
         }
         if self.error.is_none() {
             self.observer.record(record);

@@ -128,7 +128,7 @@ impl Demo {
         let reset = Reset { seed: self.seed, scenario: Some(task.scenario.clone()) };
         let mut approve = |_: &Plan| Confirmation::Approve;
         let world: &mut dyn World = &mut kitchen;
-        let account = run(&mut episode, world, &reset, &mut parser, &mut approve, observer, None)?;
+        let account = run(&mut episode, world, &reset, &mut parser, &mut approve, observer, &mut [])?;
         Ok((account, kitchen))
     }
 }

@@ -8,6 +8,7 @@ use typelift::model::{ModelFileError, NameCollision, Stop, Symbol, nearest, prin
 use typelift::pddl::ExportError;
 use typelift::plan::ExternalFailure;
 use typelift::world::{FileError, ParseErrorKind, WorldError};
+use typelift_memory::{MemoryError, MemoryErrorKind};
 
 use crate::exit::Exit;
 use crate::style::{ERROR, HINT};
@@ -101,6 +102,24 @@ impl From<ModelFileError> for Failure {
             ModelFileError::NoFormat => Self::bad_input(error).with_hint("`typelift learn` writes one."),
             _ => Self::bad_input(error).with_hint(NOT_AS_WRITTEN),
         }
+    }
+}
+
+impl From<MemoryError> for Failure {
+    fn from(error: MemoryError) -> Self {
+        let hint = match &error.kind {
+            MemoryErrorKind::Missing => Some("`typelift run MODEL TASK --memory FILE` makes one."),
+            MemoryErrorKind::NotAMemory | MemoryErrorKind::Exists => Some("Name another file."),
+            MemoryErrorKind::Version { .. } => Some("Use the typelift that wrote it."),
+            MemoryErrorKind::Busy => Some("Try again when it has ended."),
+
+            MemoryErrorKind::Disagrees { .. } => {
+                Some("A memory is of one hierarchy and one way of reading scenes: begin another one for this model.")
+            }
+            MemoryErrorKind::Compact { .. } => Some("Learn it anew from its traces, without `--compact`."),
+            _ => None,
+        };
+        Self { hint: hint.map(str::to_owned), ..Self::bad_input(error) }
     }
 }
 

@@ -46,10 +46,16 @@ pub(crate) fn model_input_from_text(path: &Path, text: String, types: Option<&Pa
         }
         error => Failure::from(error).in_file(path),
     })?;
+    add_types(&mut learned, types)?;
+    Ok(ModelInput::Learned(Box::new(learned)))
+}
+
+/// Adds the types of a file to those of a model.
+pub(crate) fn add_types(learned: &mut LearnedModel, types: Option<&PathBuf>) -> Result<(), Failure> {
     if let Some(types) = types {
         learned.model.hierarchy = read_types(types)?.extend(&learned.model.hierarchy)?;
     }
-    Ok(ModelInput::Learned(Box::new(learned)))
+    Ok(())
 }
 
 /// What is to be done, as it is read: a task file, or a PDDL problem compiled with the model it needs.
@@ -102,7 +108,7 @@ impl ModelInput {
     }
 
     /// As [`read_task`](Self::read_task), from the text, which is read once: it may come from a pipe.
-    fn task_from_text(&self, path: &Path, text: &str, quiet: bool) -> Result<TaskInput, Failure> {
+    pub(crate) fn task_from_text(&self, path: &Path, text: &str, quiet: bool) -> Result<TaskInput, Failure> {
         match self {
             Self::Given(domain) if is_pddl(text) => {
                 Ok(TaskInput::Problem(Box::new(domain.problem_from_text(path, text)?)))

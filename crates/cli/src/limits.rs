@@ -8,8 +8,8 @@ use typelift::model::{Budget, MemoryLimit, Stop};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::memory::memory_held_from_now;
 use crate::quantities::{parse_bytes, parse_duration, parse_whole};
+use crate::resident::memory_held_from_now;
 
 /// When the program started: a time limit covers reading and grounding too.
 #[derive(Debug, Clone, Copy)]

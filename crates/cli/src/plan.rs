@@ -16,10 +16,11 @@ use typelift::world::write_file;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::limits::{Clock, Interrupt, Limits, what_to_try};
-use crate::memory::memory_held_from_now;
 use crate::overwriting::{Output, keep_inputs, numbered};
 use crate::plan_file::plan_file;
 use crate::planning_options::PlanningOptions;
+use crate::remembered::read_remembered;
+use crate::resident::memory_held_from_now;
 use crate::style::{BAD, HEAD, HINT, WARNING, painted};
 use crate::watchdog::watched;
 
@@ -37,12 +38,15 @@ const HINT_EXPANSIONS: u64 = 20_000;
 
 /// Plan a task with a learned model, or a PDDL problem
 #[derive(Debug, clap::Args)]
+#[command(override_usage = "typelift plan [OPTIONS] <MODEL> <TASK>
+       typelift plan [OPTIONS] --memory <FILE> <TASK>")]
 #[command(after_help = "Examples:
   typelift plan kitchen.json K/tasks/T2.1.json
   typelift plan kitchen.json K/tasks/T4.1.json --imagine -o apple.plan
   typelift plan kitchen.json K/tasks/T1.4.json --plans 3
   typelift plan domain.pddl problem.pddl --better --time-limit 30s
   typelift plan model.json problem.pddl
+  typelift plan --memory robot.memory K/tasks/T4.1.json
   typelift plan kitchen.json K/tasks/T1.1.json --planner \
     'fast-downward --alias lama-first --plan-file {plan} {domain} {problem}'
 
@@ -51,8 +55,11 @@ limit, 22 out of memory, 23 out of time, 31 bad input, 34 unsupported PDDL,
 36 wrong usage, 38 the other planner failed, 39 its plan is not valid.")]
 pub(crate) struct Plan {
     /// The task: a goal and a state to start from; or a PDDL problem
-    #[arg(index = 2)]
-    task: PathBuf,
+    #[arg(index = 2, required_unless_present = "memory", conflicts_with = "memory")]
+    task: Option<PathBuf>,
+    /// Plan with what this memory has learned, instead of a MODEL
+    #[arg(long, value_name = "FILE")]
+    memory: Option<PathBuf>,
     /// Find N plans: each leaves out at least one action of every plan before it
     #[arg(long, value_name = "N", default_value_t = 1, allow_negative_numbers = true,
         value_parser = parse_plans, conflicts_with = "planner")]
@@ -171,15 +178,20 @@ impl Plan {
 
     fn begin(&self, clock: Clock, budget: &Budget, interrupt: &Interrupt, quiet: bool) -> Result<FirstAnswer, Failure> {
         let model = &self.planning.model;
-        let input = model.read()?;
+        let input = match &self.memory {
+            None => model.read()?,
+            Some(file) => read_remembered(file, model.types.as_ref(), quiet)?,
+        };
+        // With a memory there is no model, and the task is the first file.
+        let task = self.task.as_ref().unwrap_or(&model.model);
         let is_given = input.is_given();
         let default_output = is_given.then(|| PathBuf::from(DEFAULT_OUTPUT));
         let output = self.output.clone().or(default_output);
-        keep_inputs(output.as_deref().map(|file| self.written(file)), model.files().chain([&self.task]))?;
+        keep_inputs(output.as_deref().map(|file| self.written(file)), model.files().chain([task]).chain(&self.memory))?;
         let unasked = output.as_deref().filter(|_| self.output.is_none());
         let existing = unasked.map(|file| self.written(file).existing()).unwrap_or_default();
         let undemonstrated = input.undemonstrated();
-        let (model, task) = input.read_planning_task(&self.task, quiet)?;
+        let (model, task) = input.read_planning_task(task, quiet)?;
         interrupt.heeded();
         let read = clock.elapsed();
         let options = self.planning.agent_options(is_given)?;

@@ -22,7 +22,7 @@ pub(crate) struct ModelArguments {
     pub(crate) model: PathBuf,
     /// Add the types of this file to a learned model's
     #[arg(long, value_name = "FILE")]
-    types: Option<PathBuf>,
+    pub(crate) types: Option<PathBuf>,
     /// Imagine actions for goals that cannot be reached with the learned ones
     #[arg(long)]
     pub(crate) imagine: bool,

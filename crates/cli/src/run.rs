@@ -8,10 +8,13 @@ use std::time::Duration;
 
 use clap::ValueEnum;
 use typelift::agent::{Command, Ending, Episode, EpisodeError, Experience, Input, Options, RunError, run};
-use typelift::model::{ActionModel, ParseConfig, Plan, State, Stop, Symbol, Task};
+use typelift::model::{ActionModel, Plan, State, Stop, Symbol, Task};
 use typelift::words::{AccountView, BrokenOffView, summary};
-use typelift::world::{FileError, Parser, Recorder, Reset, Scene, TaskFile, TraceHeader, UnreadKey, World};
+use typelift::world::{
+    FileError, Parser, RecordSink, Recorder, Reset, Scene, TaskFile, TraceHeader, UnreadKey, World, read_text,
+};
 use typelift_kitchen::Kitchen;
+use typelift_memory::Memory;
 
 use crate::confirm::{Which, confirm};
 use crate::environment::{Timeouts, start};
@@ -23,6 +26,7 @@ use crate::narrate::Narrator;
 use crate::overwriting::{Output, keep_inputs};
 use crate::planning_options::PlanningOptions;
 use crate::quantities::parse_whole;
+use crate::remembered::{Remembered, is_task};
 use crate::style::{HEAD, HINT, WARNING, painted};
 
 /// Expansions of one search, unless the user says otherwise: an agent that acts must not think for ever.
@@ -32,11 +36,16 @@ const EXPANSIONS: u64 = 200_000;
 #[derive(Debug, clap::Args)]
 #[command(mut_arg("env_timeout", |timeout| timeout.requires("env")))]
 #[command(group = clap::ArgGroup::new("environment").required(true).args(["kitchen", "env"]))]
+#[command(override_usage = "typelift run [OPTIONS] <--kitchen|--env <COMMAND>> <MODEL> <TASK>...
+       typelift run [OPTIONS] <--kitchen|--env <COMMAND>> --memory <FILE>
+           [MODEL] <TASK>...")]
 #[command(after_help = "Examples:
   typelift run kitchen.json K/tasks/T4.1.json --kitchen --imagine
   typelift run kitchen.json K/faults/*.json --kitchen --imagine --json
   typelift run model.json task.json --env 'python3 robot.py' --imagine --confirm
   typelift run model.json task.json --env 'python3 robot.py' --record runs
+  typelift run kitchen.json K/tasks/T4.1.json --kitchen --imagine --memory m.db
+  typelift run K/tasks/T4.1.json --kitchen --memory m.db
 
 Tasks may be problems of a PDDL domain; the environment is then told the file,
 as scenario {\"problem\": FILE}.
@@ -50,7 +59,7 @@ Exit codes: 0 every goal was seen to hold, 12 not every one, 31 bad input,
 plan is not valid.")]
 pub(crate) struct Run {
     /// Tasks, in order
-    #[arg(required = true, value_name = "TASK", index = 2)]
+    #[arg(required_unless_present = "memory", value_name = "TASK", index = 2)]
     tasks: Vec<PathBuf>,
     /// Act in the built-in kitchen simulator
     #[arg(long)]
@@ -82,6 +91,10 @@ pub(crate) struct Run {
     /// Record what is done and observed, failures too, as a trace a task in this folder, to `learn` from
     #[arg(long, value_name = "FOLDER")]
     record: Option<PathBuf>,
+    /// Keep what is done and observed in this file, and learn from it after each task; it is made if it is not there,
+    /// and from then on MODEL may be left out
+    #[arg(long, value_name = "FILE")]
+    memory: Option<PathBuf>,
     /// Write everything that happens to this file, one JSON object a line
     #[arg(long, value_name = "FILE")]
     events: Option<PathBuf>,
@@ -92,9 +105,15 @@ pub(crate) struct Run {
 /// A task, as it was read.
 struct ToDo<'a> {
     path: &'a Path,
-    model: Arc<ActionModel>,
+    what: TaskInput,
     reset: Reset,
-    task: Task,
+}
+
+/// What there is to act with, and what is to be done.
+struct Given<'a> {
+    input: ModelInput,
+    remembered: Option<Remembered>,
+    tasks: Vec<ToDo<'a>>,
 }
 
 /// What goes on from task to task.
@@ -102,7 +121,10 @@ struct Session<'a> {
     clock: Clock,
     interrupt: &'a Interrupt,
     quiet: bool,
-    parse: ParseConfig,
+    /// What was learned up to now, and the model of it.
+    input: ModelInput,
+    model: Arc<ActionModel>,
+    memory: Option<Memory>,
     options: Options,
     world: Box<dyn World>,
     narrator: Narrator,
@@ -111,15 +133,41 @@ struct Session<'a> {
     told_keys: usize,
 }
 
+impl Session<'_> {
+    /// A task with the model for it, as it is by now.
+    fn pose(&self, path: &Path, what: TaskInput) -> Result<(Arc<ActionModel>, Task), Failure> {
+        let what = match (what, &self.memory) {
+            // It was read with the model as it was then.
+            (TaskInput::Problem(_), Some(_)) => self.input.read_task(path, true)?,
+            (what, _) => what,
+        };
+        Ok(match what {
+            TaskInput::File(file) => (Arc::clone(&self.model), Task::new(State::default(), file.goal)),
+            TaskInput::Problem(problem) => {
+                let (model, task) = *problem;
+                (Arc::new(model), task)
+            }
+        })
+    }
+
+    /// Learns from what happened, if there is a memory.
+    fn learn(&mut self) -> Result<(), Failure> {
+        if let Some(memory) = &mut self.memory {
+            memory.refresh()?;
+            self.input = ModelInput::Learned(Box::new(memory.learned().clone()));
+            self.model = Arc::new(self.input.model().clone());
+        }
+        Ok(())
+    }
+}
+
 impl Run {
     pub(crate) fn run(&self, clock: Clock, quiet: bool) -> Result<Exit, Failure> {
         let interrupt = Interrupt::install()?;
         self.check_confirm()?;
         let inputs = self.tasks.iter().chain(self.planning.model.files());
-        keep_inputs(self.events.as_deref().map(Output::File), inputs)?;
-        let input = self.planning.model.read()?;
-        let tasks = self.read_tasks(&input, quiet)?;
-        let parse = input.parse();
+        keep_inputs(self.events.as_deref().map(Output::File), inputs.chain(&self.memory))?;
+        let Given { mut input, remembered, tasks } = self.read(quiet)?;
         let options = self.options(input.is_given())?;
         interrupt.heeded();
         let world = self.open(&interrupt)?;
@@ -138,10 +186,25 @@ impl Run {
         if let Some(folder) = &self.record {
             create_dir_all(folder).map_err(|error| FileError::from_write(folder, &error))?;
         }
+        let memory = remembered.map(|remembered| remembered.begin(quiet)).transpose()?;
+        if let Some(memory) = &memory {
+            input = ModelInput::Learned(Box::new(memory.learned().clone()));
+        }
         let narrator = Narrator::new(!quiet && !self.planning.json, events);
-        let (interrupt, experience) = (&interrupt, Experience::new());
-        let mut session =
-            Session { clock, interrupt, quiet, parse, options, world, narrator, experience, told_keys: 0 };
+        let (interrupt, experience, model) = (&interrupt, Experience::new(), Arc::new(input.model().clone()));
+        let mut session = Session {
+            clock,
+            interrupt,
+            quiet,
+            input,
+            model,
+            memory,
+            options,
+            world,
+            narrator,
+            experience,
+            told_keys: 0,
+        };
         let mut all_solved = true;
         for to_do in tasks {
             let Some(ending) = self.carry_out(to_do, &mut session)? else { return Ok(Exit::Interrupted) };
@@ -161,8 +224,10 @@ impl Run {
 
     /// Carries out a task and tells of it; how it ended, or nothing if it was interrupted and the environment ended.
     fn carry_out(&self, to_do: ToDo<'_>, session: &mut Session<'_>) -> Result<Option<Ending>, Failure> {
-        let Session { clock, interrupt, quiet, parse, options, world, narrator, experience, told_keys } = session;
-        let ToDo { path, model, reset, task } = to_do;
+        let ToDo { path, what, reset } = to_do;
+        let (model, task) = session.pose(path, what)?;
+        let Session { clock, interrupt, quiet, input, memory, options, world, narrator, experience, told_keys, .. } =
+            session;
         let name = task_name(path);
         if narrator.aloud {
             anstream::eprintln!("{HEAD}{name}{HEAD:#}");
@@ -173,12 +238,15 @@ impl Run {
         let mut episode =
             Episode::new(Arc::clone(&model), task.goal.clone(), options.clone(), experience.clone(), budget)
                 .with_values(task.values);
-        let mut parser = Parser::new(model.hierarchy.clone(), parse.clone()).knowing(&model.predicates);
+        let mut parser = Parser::new(model.hierarchy.clone(), input.parse()).knowing(&model.predicates);
         let mut confirm = |plan: &Plan| confirm(self.confirm, plan, &model, interrupt);
         let header = TraceHeader { task: name.clone(), goal: task.goal };
+        let mut remembering = memory.as_mut().map(|memory| memory.episode(header.clone()));
         let mut recorder = self.record.as_ref().map(|folder| Recorder::new(folder, &name, header));
-        let recorded = recorder.as_mut();
-        let mut ran = run(&mut episode, &mut **world, &reset, &mut parser, &mut confirm, narrator, recorded);
+        let kept = remembering.as_mut().map(|sink| sink as &mut dyn RecordSink);
+        let recorded = recorder.as_mut().map(|sink| sink as &mut dyn RecordSink);
+        let mut sinks: Vec<&mut dyn RecordSink> = kept.into_iter().chain(recorded).collect();
+        let mut ran = run(&mut episode, &mut **world, &reset, &mut parser, &mut confirm, narrator, &mut sinks);
         for file in recorder.iter().flat_map(Recorder::files).filter(|_| !*quiet) {
             anstream::eprintln!("recorded {}", file.display());
         }
@@ -194,6 +262,8 @@ impl Run {
         if was_interrupted && let Ok(Command::Done(account)) = episode.step(Input::Stop, narrator) {
             ran = Ok(*account);
         }
+        let how = ran.as_ref().map_or("broken_off", |account| account.ending.word());
+        let remembered = remembering.map_or(Ok(()), |episode| episode.end(how));
         if let (Some(error), Some(path)) = (narrator.events_error.take(), &self.events) {
             return Err(FileError::from_write(path, &error).into());
         }
@@ -204,6 +274,7 @@ impl Run {
             writeln!(out, "{}", serde_json::to_string(&view).unwrap_or_default())?;
         }
         let account = ran.map_err(|error| Failure::from(error).in_file(path))?;
+        remembered?;
         *experience = episode.experience().clone();
         if self.planning.json {
             let view = AccountView::of(&name, &account, &episode, narrator.planning.as_secs_f64());
@@ -219,6 +290,7 @@ impl Run {
         {
             anstream::eprintln!("{HINT}hint{HINT:#}: {advice}");
         }
+        session.learn()?;
         Ok((!was_interrupted).then_some(account.ending))
     }
 
@@ -235,21 +307,36 @@ impl Run {
         Err(failure.with_hint(format!("Write --confirm={word}.")))
     }
 
-    fn read_tasks<'a>(&'a self, input: &ModelInput, quiet: bool) -> Result<Vec<ToDo<'a>>, Failure> {
-        let learned = Arc::new(input.model().clone());
-        let read = |path: &'a PathBuf| -> Result<ToDo<'a>, Failure> {
-            Ok(match input.read_task(path, quiet)? {
-                TaskInput::File(file) => {
-                    let task = Task::new(State::default(), file.goal.clone());
-                    ToDo { path, model: Arc::clone(&learned), reset: self.reset(&file), task }
-                }
-                TaskInput::Problem(problem) => {
-                    let (model, task) = *problem;
-                    ToDo { path, model: Arc::new(model), reset: self.reset_to_problem(path)?, task }
-                }
-            })
+    /// Reads the model, opens the memory, and reads the tasks.
+    fn read(&self, quiet: bool) -> Result<Given<'_>, Failure> {
+        let arguments = &self.planning.model;
+        let Some(file) = &self.memory else {
+            let input = arguments.read()?;
+            let tasks = self.tasks.iter().map(|path| self.to_do(path, input.read_task(path, quiet)?));
+            return Ok(Given { tasks: tasks.collect::<Result<_, _>>()?, input, remembered: None });
         };
-        self.tasks.iter().map(read).collect()
+        // The first file is a model, or else a task.
+        let first = &arguments.model;
+        let text = read_text(first)?;
+        let is_task = self.tasks.is_empty() || is_task(&text);
+        let (model, text) = match is_task {
+            true => (None, Some(text)),
+            false => (Some((first.as_path(), arguments.input_of(text)?)), None),
+        };
+        let remembered = Remembered::open(file, model, arguments.types.as_ref(), quiet)?;
+        let input = remembered.input();
+        let first = text.map(|text| self.to_do(first, input.task_from_text(first, &text, quiet)?));
+        let others = self.tasks.iter().map(|path| self.to_do(path, input.read_task(path, quiet)?));
+        let tasks = first.into_iter().chain(others).collect::<Result<_, _>>()?;
+        Ok(Given { input, remembered: Some(remembered), tasks })
+    }
+
+    fn to_do<'a>(&self, path: &'a Path, what: TaskInput) -> Result<ToDo<'a>, Failure> {
+        let reset = match &what {
+            TaskInput::File(file) => self.reset(file),
+            TaskInput::Problem(_) => self.reset_to_problem(path)?,
+        };
+        Ok(ToDo { path, what, reset })
     }
 
     fn open(&self, interrupt: &Interrupt) -> Result<Box<dyn World>, Failure> {

@@ -150,6 +150,11 @@ fn pddl() {
 }
 
 #[test]
+fn the_document_on_memory() {
+    tour("docs/memory.md");
+}
+
+#[test]
 fn your_robot() {
     if python_is_here() {
         tour("docs/your-robot.md");

@@ -70,7 +70,7 @@ pub fn attempt_in(
     let reset = Reset { seed, scenario: Some(task.scenario.clone()) };
     let mut stopwatch = Stopwatch::default();
     let mut approve = |_: &Plan| Confirmation::Approve;
-    let account = run(&mut episode, world, &reset, &mut parser, &mut approve, &mut stopwatch, None)?;
+    let account = run(&mut episode, world, &reset, &mut parser, &mut approve, &mut stopwatch, &mut [])?;
     let (experience, instance) = (episode.experience().clone(), episode.instance().clone());
     Ok(Attempt { account, experience, instance, planning: stopwatch.total })
 }

@@ -71,9 +71,9 @@ pub enum Actor {
 
 /// Where demonstrations were read otherwise than those that a model was learned from, so that they do not add up.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{}", self.between("the model", "the types given"))]
 pub enum Disagreement {
     /// The first type that is not in both hierarchies, or lies elsewhere.
-    #[error("the type `{ty}` lies {} in the model and {} in the types given", place(.model), place(.given))]
     Type {
         /// The type.
         ty: Symbol,
@@ -83,13 +83,26 @@ pub enum Disagreement {
         given: BTreeSet<Symbol>,
     },
     /// The first attribute or relation that only one of them ignores.
-    #[error("`{name}` is {} by the model", if *.by_model { "ignored" } else { "not ignored" })]
     Ignored {
         /// What to ignore.
         name: Symbol,
         /// Whether it is the model that ignores it.
         by_model: bool,
     },
+}
+
+impl Disagreement {
+    /// The same in words, where the model and what it was compared with are called so.
+    pub fn between(&self, model: &str, given: &str) -> String {
+        match self {
+            Self::Type { ty, model: own, given: other } => {
+                format!("the type `{ty}` lies {} in {model} and {} in {given}", place(own), place(other))
+            }
+            Self::Ignored { name, by_model } => {
+                format!("`{name}` is {} by {model}", if *by_model { "ignored" } else { "not ignored" })
+            }
+        }
+    }
 }
 
 fn place(parents: &BTreeSet<Symbol>) -> String {

@@ -149,8 +149,7 @@
 //! let mut approve = |_: &typelift::Plan| Confirmation::Approve;
 //! let mut events: Vec<Event> = Vec::new();
 //! let mut recorder = Recorder::new(folder, "acted", TraceHeader::default());
-//! let recording = Some(&mut recorder);
-//! let account = run(&mut episode, &mut world, &reset, &mut parser, &mut approve, &mut events, recording)?;
+//! let account = run(&mut episode, &mut world, &reset, &mut parser, &mut approve, &mut events, &mut [&mut recorder])?;
 //! assert_eq!(account.ending, Ending::Solved);
 //! assert!(matches!(events.last(), Some(Event::Ended { solved: true })));
 //!

@@ -46,6 +46,13 @@ pub fn source_of_file(path: &Path) -> Result<SourceId, FileError> {
     Ok(hasher.finish())
 }
 
+/// Which source a trace file with this content is.
+pub fn source_of(bytes: &[u8]) -> SourceId {
+    let mut hasher = SourceHasher::default();
+    hasher.update(bytes);
+    hasher.finish()
+}
+
 impl Trace {
     /// Which source it is: that of the file it was read from, or else of its canonical text, which is a line for each
     /// state and action, every set in order. `hierarchy` is the one that its states refer to.

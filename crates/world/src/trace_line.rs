@@ -105,6 +105,35 @@ pub(crate) struct BodyLine {
     pub(crate) verdict: Option<Verdict>,
 }
 
+impl TraceHeader {
+    /// The header that the first line of a trace is; its format is taken for granted.
+    ///
+    /// # Errors
+    /// That of the line.
+    pub fn from_line(line: &str) -> serde_json::Result<Self> {
+        let HeaderLine { task, goal } = serde_json::from_str(line)?;
+        Ok(Self { task, goal })
+    }
+}
+
+impl TraceAction {
+    /// The action that a line of a trace is, if it is one.
+    ///
+    /// # Errors
+    /// That of the line.
+    pub fn from_line(line: &str) -> serde_json::Result<Option<Self>> {
+        Ok(serde_json::from_str::<BodyLine>(line)?.action())
+    }
+}
+
+impl BodyLine {
+    /// The action of the line, if it has one.
+    pub(crate) fn action(self) -> Option<TraceAction> {
+        let Self { action, executed, reason, t: time, expected, verdict, .. } = self;
+        Some(TraceAction { call: action?, executed, reason, time, expected, verdict })
+    }
+}
+
 /// A scene of either kind, as it is read; unlike the scene itself it can say at which place it is malformed.
 #[derive(Deserialize)]
 #[serde(expecting = "a state")]

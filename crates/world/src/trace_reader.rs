@@ -200,7 +200,7 @@ impl<R: BufRead> TraceReader<R> {
             let hint = r#"A line is {"state":…} or {"action":…}."#;
             return Err(error("this line is not a JSON object").with_hint(hint.to_owned()));
         }
-        let body: BodyLine = match serde_json::from_str(line.text) {
+        let mut body: BodyLine = match serde_json::from_str(line.text) {
             Ok(body) => body,
             Err(eof) if eof.is_eof() && !line.complete && self.started => {
                 self.cut_off = Some(error("the recording was cut off in this line: it is left out"));
@@ -208,15 +208,12 @@ impl<R: BufRead> TraceReader<R> {
             }
             Err(error) => return Err(malformed(&path, &line, &error)),
         };
-        match (body.state, body.action) {
+        match (body.state.take(), body.action()) {
             (Some(state), None) => {
                 self.unread.note(&path, Some(number), state.entities());
                 Ok(Some(Body::State(state.scene().map_err(error)?)))
             }
-            (None, Some(call)) => {
-                let BodyLine { executed, reason, t: time, expected, verdict, .. } = body;
-                Ok(Some(Body::Action(TraceAction { call, executed, reason, time, expected, verdict })))
-            }
+            (None, Some(action)) => Ok(Some(Body::Action(action))),
             (None, None) => Err(error("this line has neither a `state` nor an `action`")),
             (Some(_), Some(_)) => Err(error("this line has both a `state` and an `action`")),
         }

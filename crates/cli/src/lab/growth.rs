@@ -14,8 +14,8 @@ use crate::columns::Columns;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::limits::Clock;
-use crate::memory::memory_held_from_now;
 use crate::quantities::{parse_bytes, parse_duration};
+use crate::resident::memory_held_from_now;
 use crate::style::{HEAD, wrapped};
 
 /// How time and memory grow with objects, goals and demonstrations

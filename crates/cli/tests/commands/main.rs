@@ -30,6 +30,7 @@ mod planners;
 mod planning;
 mod recorded;
 mod recording;
+mod remembering;
 mod shell;
 mod simulator;
 mod strange;

@@ -1,0 +1,114 @@
+//! Acting with a memory: which of the files is what, when the memory is begun, and what the model is after each task.
+
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+use typelift::model::LearnedModel;
+use typelift::words::count;
+use typelift::world::is_pddl;
+use typelift_memory::{Access, Memory, MemoryError, MemoryErrorKind};
+
+use crate::failure::Failure;
+use crate::files::{ModelInput, add_types};
+use crate::style::WARNING;
+
+/// The model that a memory has learned, to plan with.
+pub(crate) fn read_remembered(file: &Path, types: Option<&PathBuf>, quiet: bool) -> Result<ModelInput, Failure> {
+    let memory = Memory::open(file, Access::Read)?;
+    if !quiet {
+        warn_unread(&memory);
+    }
+    let mut learned = memory.learned().clone();
+    add_types(&mut learned, types)?;
+    Ok(ModelInput::Learned(Box::new(learned)))
+}
+
+/// Whether a text is a task rather than a model. A memory is of learned models, so that what is PDDL is a problem.
+pub(crate) fn is_task(text: &str) -> bool {
+    #[derive(Deserialize)]
+    struct File {
+        format: String,
+    }
+    is_pddl(text) || serde_json::from_str::<File>(text).is_ok_and(|file| file.format.starts_with("task/"))
+}
+
+/// A memory that a run goes on from, and with what.
+pub(crate) struct Remembered {
+    file: PathBuf,
+    /// None until it is begun, if it is not there.
+    memory: Option<Memory>,
+    /// A model whose evidence is to be added, and what it is called.
+    model: Option<(Box<LearnedModel>, String)>,
+}
+
+impl Remembered {
+    /// Opens a memory if it is there, to go on from it and, if it is given, from a model of the same kind. Nothing is written
+    /// yet.
+    pub(crate) fn open(
+        file: &Path,
+        model: Option<(&Path, ModelInput)>,
+        types: Option<&PathBuf>,
+        quiet: bool,
+    ) -> Result<Self, Failure> {
+        let memory = match Memory::open(file, Access::Write) {
+            Err(MemoryError { kind: MemoryErrorKind::Missing, .. }) if model.is_some() => None,
+            opened => Some(opened?),
+        };
+        let model = match model {
+            None => None,
+            Some((path, ModelInput::Learned(model))) => Some((model, path.display().to_string())),
+            Some((path, ModelInput::Given(_))) => {
+                let what = format!("{}: this is a PDDL domain, in which nothing is learned", path.display());
+                return Err(Failure::bad_input(what).with_hint("Leave out --memory."));
+            }
+        };
+        if let Some(memory) = &memory {
+            if let Some((model, name)) = &model {
+                memory.agrees(model, name)?;
+            } else if let Some(types) = types {
+                let mut extended = memory.learned().clone();
+                add_types(&mut extended, Some(types))?;
+                memory.agrees(&extended, &format!("--types {}", types.display()))?;
+            }
+            if !quiet {
+                warn_unread(memory);
+            }
+        }
+        Ok(Self { file: file.to_owned(), memory, model })
+    }
+
+    /// The model to read tasks with, before anything is written.
+    pub(crate) fn input(&self) -> ModelInput {
+        match (&self.model, &self.memory) {
+            (Some((model, _)), _) => ModelInput::Learned(model.clone()),
+            (None, Some(memory)) => ModelInput::Learned(Box::new(memory.learned().clone())),
+            (None, None) => ModelInput::Learned(Box::default()),
+        }
+    }
+
+    /// Begins the memory if it is not there, and adds what the model was learned from.
+    pub(crate) fn begin(self, quiet: bool) -> Result<Memory, Failure> {
+        let is_new = self.memory.is_none();
+        let mut memory = match (self.memory, &self.model) {
+            (Some(memory), _) => memory,
+            (None, Some((model, _))) => Memory::open_or_create(&self.file, model)?,
+            (None, None) => Memory::open(&self.file, Access::Write)?,
+        };
+        if let Some((model, name)) = &self.model {
+            let added = memory.add_model(model, name)?;
+            if !quiet && (is_new || added > 0) {
+                let (verb, file) = (if is_new { "began" } else { "went on with" }, self.file.display());
+                anstream::eprintln!("{verb} {file} with {} of {name}", count(added as u64, "demonstration"));
+            }
+        }
+        Ok(memory)
+    }
+}
+
+/// Says which parts of a memory nothing is learned from.
+pub(crate) fn warn_unread(memory: &Memory) {
+    for unread in memory.unread() {
+        let (file, entry, why) = (memory.file().display(), unread.entry, &unread.why);
+        anstream::eprintln!("{WARNING}warning{WARNING:#}: {file}: nothing is learned from entry {entry}: {why}");
+    }
+}

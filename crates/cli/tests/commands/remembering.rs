@@ -1,0 +1,102 @@
+//! `run --memory` and `plan --memory`: what was seen once is known from then on.
+
+use serde_json::Value;
+use typelift::world::source_of_file;
+
+use crate::common::{Ended, Folder};
+
+const APPLE: &str = "K/tasks/T4.1.json";
+
+/// The accounts of a run's tasks; what they measured is left out.
+fn accounts(ended: &Ended) -> Vec<Value> {
+    ended.out.lines().map(|line| serde_json::from_str(&line.replace(":N", ":0")).expect("JSON")).collect()
+}
+
+/// How many of each task's steps were imagined.
+fn imagined(ended: &Ended) -> Vec<i64> {
+    let steps = |account: &Value| {
+        assert_eq!(account["solved"], true, "{ended}");
+        account["imagined_steps"].as_i64().expect("a number")
+    };
+    accounts(ended).iter().map(steps).collect()
+}
+
+#[test]
+fn nothing_is_imagined_twice() {
+    let folder = Folder::kitchen();
+    let model = folder.read("kitchen.json");
+    let first = folder.run(&format!("run kitchen.json {APPLE} {APPLE} --kitchen --imagine --memory m --json"));
+    let found = imagined(&first);
+    assert!(found[0] > 0 && found[1] == 0, "{first}");
+    assert_eq!(first.err, "began m with 8 demonstrations of kitchen.json\n");
+    let again = folder.run(&format!("run {APPLE} --kitchen --memory m --json"));
+    assert_eq!((imagined(&again), again.err.as_str()), (vec![0], ""));
+    let planned = folder.run(&format!("plan --memory m {APPLE}"));
+    planned.succeeds();
+    assert!(!planned.out.contains("imagined"), "{planned}");
+    assert_eq!(folder.run(&format!("plan kitchen.json {APPLE}")).code, 11, "it was not demonstrated");
+    assert_eq!(folder.read("kitchen.json"), model, "the model is never written");
+    let names = folder.names();
+    assert!(names.iter().all(|name| ["K", "kitchen.json", "m"].contains(&name.as_str())), "{names:?}");
+}
+
+#[test]
+fn a_memory_and_a_record_are_the_same() {
+    let folder = Folder::kitchen();
+    let fault = "K/faults/broken_cutboard_lettuce.json";
+    folder.run(&format!("run kitchen.json {fault} --kitchen --imagine --memory m --record R -q")).succeeds();
+    let source = source_of_file(&folder.path("R/broken_cutboard_lettuce.jsonl")).expect("a trace").to_string();
+    let recorded = folder.run("learn --into kitchen.json R -o both.json");
+    recorded.succeeds();
+    let began = folder.run(&format!("run both.json {APPLE} --kitchen --imagine --memory other -q"));
+    began.succeeds();
+    // The model of both files knows the same sources.
+    let went_on = folder.run(&format!("run both.json {APPLE} --kitchen --imagine --memory m"));
+    assert!(went_on.err.contains("went on with m with 1 demonstration of both.json"), "{went_on}");
+    assert!(folder.read("both.json").contains(&source));
+}
+
+#[test]
+fn problems_in_pddl_are_posed_with_what_was_learned() {
+    let folder = Folder::kitchen();
+    folder.run(&format!("export kitchen.json {APPLE} -o E -q")).succeeds();
+    let problem = folder.run("plan kitchen.json E/problem.pddl --imagine");
+    assert_eq!(problem.code, 0, "{problem}");
+    folder.run(&format!("run kitchen.json {APPLE} --kitchen --imagine --memory m -q")).succeeds();
+    let planned = folder.run("plan --memory m E/problem.pddl");
+    planned.succeeds();
+    assert!(!planned.out.contains("imagined"), "{planned}");
+}
+
+#[test]
+fn what_cannot_be_a_memory_is_refused() {
+    let folder = Folder::kitchen();
+    folder.run(&format!("run kitchen.json {APPLE} --kitchen --imagine --memory m -q")).succeeds();
+    folder.write("text", "not a database, but long enough to be looked at as if it were one ".repeat(20));
+    folder.write("cut", &std::fs::read(folder.path("m")).expect("a memory")[..20_000]);
+    let mut newer = std::fs::read(folder.path("m")).expect("a memory");
+    newer[63] = 9;
+    folder.write("newer", newer);
+    folder.changed("kitchen.json", "other.json", |model| {
+        model["types"].as_array_mut().expect("a list").push(serde_json::json!(["spork", "object"]));
+    });
+    folder.write("domain.pddl", "(define (domain d) (:predicates (on)) (:action press :parameters () :effect (on)))");
+    let mut transcript = crate::common::Transcript::default();
+    for command in [
+        "run K/tasks/T1.1.json --kitchen --memory missing",
+        "plan --memory missing K/tasks/T1.1.json",
+        "run K/tasks/T1.1.json --kitchen --memory text",
+        "run K/tasks/T1.1.json --kitchen --memory K",
+        "run kitchen.json K/tasks/T1.1.json --kitchen --memory no/where",
+        "run K/tasks/T1.1.json --kitchen --memory newer",
+        "run K/tasks/T1.1.json --kitchen --memory cut",
+        "run other.json K/tasks/T1.1.json --kitchen --memory m",
+        "run kitchen.json K/tasks/T1.1.json --kitchen --memory kitchen.json",
+        "run kitchen.json domain.pddl --kitchen --memory m",
+    ] {
+        transcript.add(command, &folder.refuses(31, command));
+    }
+    transcript.add("two files", &folder.refuses(36, "plan --memory m kitchen.json K/tasks/T1.1.json"));
+    transcript.add("no file", &folder.refuses(36, "run --kitchen --memory m"));
+    insta::assert_snapshot!("refused-memories", transcript.0);
+}

@@ -1,0 +1,152 @@
+//! From the log to the evidence: a sum over its entries, in which their order does not matter.
+//!
+//! Each model's evidence and each episode contributes its sources; an episode is one, known by the hash of its trace as a
+//! recorder would have written it, so that the same trace counts once however it came. What was taken back contributes
+//! nothing. Once an episode has ended its entries never change, so the sum over all that has ended is kept, up to
+//! an entry, and only what came after is added.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use rusqlite::Connection;
+use typelift_learn::observe_trace;
+use typelift_model::{Evidence, LearnedModel, SourceId};
+use typelift_world::{FileError, Parser, Trace, TraceReader, trace_from};
+
+use crate::error::MemoryErrorKind;
+use crate::log::{self, Kind, Wanted, list, trace_name, trace_text};
+
+/// The sum over the log up to an entry, of episodes that had ended by then.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Fold {
+    pub(crate) up_to: i64,
+    pub(crate) evidence: Evidence,
+}
+
+/// Something in a memory that nothing is learned from, since it is not as a trace must be.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Unread {
+    /// The entry with which the episode began, or that holds a model's evidence.
+    pub entry: i64,
+    /// What is wrong.
+    pub why: String,
+}
+
+/// Everything that the log says now.
+pub(crate) struct Sum {
+    pub(crate) evidence: Evidence,
+    pub(crate) unread: Vec<Unread>,
+}
+
+impl Fold {
+    /// Adds what was written since, and gives the sum with the episodes that have not ended. `basis` says how scenes are
+    /// read. In time of what was written since, and of the episodes that never ended.
+    pub(crate) fn go_on(&mut self, connection: &Connection, basis: &LearnedModel) -> Result<Sum, MemoryErrorKind> {
+        let from = self.up_to;
+        let last = log::last(connection)?;
+        let mut unread = Vec::new();
+        let taken_back = taken_back(connection)?;
+        for entry in list(connection, Wanted::After(Kind::Evidence, from))? {
+            let evidence = model_evidence(&entry, &taken_back)?;
+            self.add(entry.number, &evidence, &mut unread);
+        }
+        for entry in list(connection, Wanted::After(Kind::Ended, from))? {
+            let episode = entry.episode.unwrap_or_default();
+            if taken_back.iter().any(|(number, _)| *number == episode) {
+                continue;
+            }
+            let log::Ended { source, .. } = entry.content()?;
+            match episode_evidence(connection, episode, basis)? {
+                Ok((found, _)) if found != source => {
+                    unread.push(Unread { entry: episode, why: "its trace is not as it was written".to_owned() });
+                }
+                Ok((_, evidence)) => self.add(episode, &evidence, &mut unread),
+                Err(error) => unread.push(Unread { entry: episode, why: error.to_string() }),
+            }
+        }
+        for entry in list(connection, Wanted::After(Kind::Forgotten, from))? {
+            let log::Forgotten { source, entries } = entry.content()?;
+            if entries.iter().any(|entry| *entry <= from) {
+                // What never was compact is not compact now.
+                let _ = self.evidence.take_out(source);
+            }
+        }
+        self.up_to = last;
+        let mut sum = Self { up_to: last, evidence: self.evidence.clone() };
+        for episode in under_way(connection)? {
+            if taken_back.iter().any(|(number, _)| *number == episode) {
+                continue;
+            }
+            match episode_evidence(connection, episode, basis)? {
+                Ok((_, evidence)) => sum.add(episode, &evidence, &mut unread),
+                Err(error) => unread.push(Unread { entry: episode, why: error.to_string() }),
+            }
+        }
+        Ok(Sum { evidence: sum.evidence, unread })
+    }
+
+    fn add(&mut self, entry: i64, evidence: &Evidence, unread: &mut Vec<Unread>) {
+        if let Err(error) = self.evidence.merge(evidence) {
+            unread.push(Unread { entry, why: error.to_string() });
+        }
+    }
+}
+
+/// The evidence of a model, without what was taken back of it.
+fn model_evidence(entry: &log::Entry, taken_back: &BTreeSet<(i64, SourceId)>) -> Result<Evidence, MemoryErrorKind> {
+    let log::Evidence { model, .. } = entry.content()?;
+    let mut evidence = LearnedModel::from_json(model.get())?.evidence;
+    for (_, source) in taken_back.iter().filter(|(number, _)| *number == entry.number) {
+        let _ = evidence.take_out(*source);
+    }
+    Ok(evidence)
+}
+
+/// Which sources of which entries were taken back.
+pub(crate) fn taken_back(connection: &Connection) -> Result<BTreeSet<(i64, SourceId)>, MemoryErrorKind> {
+    let mut all = BTreeSet::new();
+    for entry in list(connection, Wanted::Of(Kind::Forgotten))? {
+        let log::Forgotten { source, entries } = entry.content()?;
+        all.extend(entries.into_iter().map(|number| (number, source)));
+    }
+    Ok(all)
+}
+
+/// The episodes that have not ended: under way, or broken off when the program was killed.
+pub(crate) fn under_way(connection: &Connection) -> Result<Vec<i64>, MemoryErrorKind> {
+    let mut statement = connection.prepare(
+        "SELECT number FROM log AS begun WHERE kind = 'begun' AND NOT EXISTS
+         (SELECT 1 FROM log WHERE episode = begun.number AND kind = 'ended') ORDER BY number",
+    )?;
+    let numbers = statement.query_map([], |row| row.get(0))?;
+    Ok(numbers.collect::<Result<_, _>>()?)
+}
+
+/// An episode as a trace, or why it is none.
+pub(crate) fn episode_trace(
+    connection: &Connection,
+    episode: i64,
+    basis: &LearnedModel,
+) -> Result<Result<Trace, FileError>, MemoryErrorKind> {
+    let text = trace_text(connection, episode)?;
+    let mut parser = Parser::new(basis.model.hierarchy.clone(), basis.parse.clone());
+    let place = format!("episode {episode}");
+    let read = TraceReader::new(Path::new(&place), text.as_bytes());
+    Ok(read.and_then(|reader| trace_from(Path::new(&place), reader, &mut parser)).map(|mut trace| {
+        trace.file = Some(trace_name(&trace));
+        trace
+    }))
+}
+
+/// What an episode shows, as the one source that it is; or why it is not a trace.
+fn episode_evidence(
+    connection: &Connection,
+    episode: i64,
+    basis: &LearnedModel,
+) -> Result<Result<(SourceId, Evidence), FileError>, MemoryErrorKind> {
+    let hierarchy = &basis.model.hierarchy;
+    Ok(episode_trace(connection, episode, basis)?.map(|trace| {
+        let (id, name) = (trace.source_id(hierarchy), trace_name(&trace));
+        (id, [(id, name, observe_trace(&trace, hierarchy))].into_iter().collect())
+    }))
+}

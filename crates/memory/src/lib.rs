@@ -1,0 +1,26 @@
+//! What an agent saw and was told, in a file that outlives it.
+//!
+//! A [`Memory`] is an append-only log: which demonstrations a model was learned from, what was done and observed in each
+//! episode, what was taken back. The log alone decides. The evidence is a sum over its entries, and the model a function
+//! of the evidence, so that neither the order of the entries nor how often the program was stopped in between matters.
+//!
+//! Times are kept for people; no result depends on them.
+#![deny(missing_docs)]
+
+mod episode;
+mod error;
+mod fold;
+mod format;
+mod log;
+mod logged;
+mod memory;
+mod scene_change;
+mod version;
+
+pub use episode::EpisodeLog;
+pub use error::{MemoryError, MemoryErrorKind};
+pub use fold::Unread;
+pub use format::Access;
+pub use logged::{Logged, What};
+pub use memory::Memory;
+pub use version::VERSION;

@@ -1,0 +1,278 @@
+//! A memory: opened, asked, and added to.
+
+use std::path::{Path, PathBuf};
+
+use rusqlite::{Connection, OptionalExtension, TransactionBehavior, params};
+use serde_json::value::RawValue;
+use typelift_learn::learn_evidence;
+use typelift_model::{ActionModel, Evidence, LearnedModel, ParseConfig, SourceId};
+use typelift_world::TraceHeader;
+
+use crate::episode::EpisodeLog;
+use crate::error::{MemoryError, MemoryErrorKind};
+use crate::fold::{Fold, Sum, Unread, episode_trace, taken_back, under_way};
+use crate::format::{self, Access};
+use crate::log::{self, Kind, Wanted, append, list};
+use crate::logged::{Logged, logged};
+
+/// The program whose folds are trusted: another one may learn otherwise from the same log.
+const PROGRAM: &str = env!("CARGO_PKG_VERSION");
+
+/// The sum is written down once the log has grown by one part in so many: all that is written so, over the years, is in
+/// proportion to the log.
+const KEPT_SHARE: i64 = 4;
+
+/// What an agent saw and was told, in a file, and the model that is learned from it.
+///
+/// The log alone decides: what is [`learned`](Self::learned) is a function of it, the same as from learning from all of its
+/// models' demonstrations and episodes at once. The file also keeps the sum up to some entry, so that opening it need not
+/// begin at the first.
+#[derive(Debug)]
+pub struct Memory {
+    file: PathBuf,
+    connection: Connection,
+    access: Access,
+    /// The types, and how scenes are read: a model without evidence.
+    basis: LearnedModel,
+    fold: Fold,
+    /// Up to which entry the file keeps the sum.
+    kept_up_to: i64,
+    learned: LearnedModel,
+    unread: Vec<Unread>,
+}
+
+impl Memory {
+    /// Opens a memory that is there, and learns from what it says. In time of the kept sum and of what came after it.
+    ///
+    /// # Errors
+    /// [`MemoryError`]: of kind [`Missing`](MemoryErrorKind::Missing) if there is none.
+    pub fn open(file: &Path, access: Access) -> Result<Self, MemoryError> {
+        let connection = format::open(file, access).map_err(|kind| kind.of(file))?;
+        Self::begin(file, connection, access).map_err(|kind| kind.of(file))
+    }
+
+    /// Opens a memory to write to, and makes it if it is not there: with the types of this model, and its way of reading
+    /// scenes. What the model was learned from is not added yet.
+    ///
+    /// # Errors
+    /// [`MemoryError`].
+    pub fn open_or_create(file: &Path, model: &LearnedModel) -> Result<Self, MemoryError> {
+        let opened = match format::open(file, Access::Write) {
+            Err(MemoryErrorKind::Missing) => {
+                let basis = basis_of(model).to_json().map_err(MemoryErrorKind::from);
+                basis.and_then(|basis| format::create(file, &basis))
+            }
+            opened => opened,
+        };
+        let begun = opened.and_then(|connection| Self::begin(file, connection, Access::Write));
+        begun.map_err(|kind| kind.of(file))
+    }
+
+    fn begin(file: &Path, connection: Connection, access: Access) -> Result<Self, MemoryErrorKind> {
+        let basis: String = connection.query_row("SELECT model FROM basis", [], |row| row.get(0))?;
+        let basis = LearnedModel::from_json(&basis)?;
+        let (fold, learned) = kept_fold(&connection)?.unwrap_or_else(|| (Fold::default(), basis.clone()));
+        let (file, kept_up_to) = (file.to_owned(), fold.up_to);
+        let mut memory = Self { file, connection, access, basis, fold, kept_up_to, learned, unread: Vec::new() };
+        memory.learn()?;
+        Ok(memory)
+    }
+
+    /// The file, as it was named.
+    pub fn file(&self) -> &Path {
+        &self.file
+    }
+
+    /// What was learned from everything that it held when it was opened or last [`refresh`](Self::refresh)ed.
+    pub fn learned(&self) -> &LearnedModel {
+        &self.learned
+    }
+
+    /// What nothing is learned from, since it is not as a trace must be.
+    pub fn unread(&self) -> &[Unread] {
+        &self.unread
+    }
+
+    /// Learns from what was written since, by whomever. In time of what was written and, if there was anything, of the
+    /// evidence.
+    ///
+    /// # Errors
+    /// [`MemoryError`] if it cannot be read, or the sum cannot be kept.
+    pub fn refresh(&mut self) -> Result<(), MemoryError> {
+        self.learn().map_err(|kind| kind.of(&self.file))
+    }
+
+    fn learn(&mut self) -> Result<(), MemoryErrorKind> {
+        // One view of it, whoever is writing.
+        let view = self.connection.unchecked_transaction()?;
+        let Sum { evidence, unread } = self.fold.go_on(&view, &self.basis)?;
+        view.finish()?;
+        self.unread = unread;
+        if evidence != self.learned.evidence {
+            self.learned = learned_from(evidence, &self.basis)?;
+        }
+        if self.access == Access::Write && self.fold.up_to > self.kept_up_to + self.kept_up_to / KEPT_SHARE {
+            self.keep_fold()?;
+        }
+        Ok(())
+    }
+
+    /// Writes the sum down.
+    fn keep_fold(&mut self) -> Result<(), MemoryErrorKind> {
+        let settled = match self.fold.evidence == self.learned.evidence {
+            true => self.learned.to_json()?,
+            false => learned_from(self.fold.evidence.clone(), &self.basis)?.to_json()?,
+        };
+        let transaction = self.connection.transaction_with_behavior(TransactionBehavior::Immediate)?;
+        transaction.execute("DELETE FROM fold", [])?;
+        let row = params![self.fold.up_to, PROGRAM, settled];
+        transaction.execute("INSERT INTO fold (up_to, program, model) VALUES (?1, ?2, ?3)", row)?;
+        transaction.commit()?;
+        self.kept_up_to = self.fold.up_to;
+        Ok(())
+    }
+
+    /// Adds what a model was learned from, as far as no model's evidence in it had these sources before: what was taken back
+    /// does not come back with the model. `name` is what people call the model. Gives how many sources it added.
+    ///
+    /// # Errors
+    /// [`MemoryError`] if the model was learned from scenes read in another way, keeps totals only, or read a trace that is
+    /// known in another way; and if nothing can be written. Then nothing is added.
+    pub fn add_model(&mut self, model: &LearnedModel, name: &str) -> Result<usize, MemoryError> {
+        self.try_add_model(model, name).map_err(|kind| kind.of(&self.file))
+    }
+
+    fn try_add_model(&mut self, model: &LearnedModel, name: &str) -> Result<usize, MemoryErrorKind> {
+        self.check_kind(model, name)?;
+        let transaction = self.connection.transaction_with_behavior(TransactionBehavior::Immediate)?;
+        let mut evidence = model.evidence.clone();
+        for entry in list(&transaction, Wanted::Of(Kind::Evidence))? {
+            for source in entry.content::<log::Evidence>()?.sources {
+                let _ = evidence.take_out(source);
+            }
+        }
+        let sources: Vec<SourceId> = evidence.sources().keys().copied().collect();
+        if sources.is_empty() {
+            return Ok(0);
+        }
+        let merged = self.fold.evidence.clone().merge(&evidence);
+        merged.map_err(|error| MemoryErrorKind::Merge { model: name.to_owned(), error })?;
+        let added = sources.len();
+        let text = LearnedModel { evidence, ..self.basis.clone() }.to_json()?;
+        let model = RawValue::from_string(text.trim_end().to_owned())?;
+        append(&transaction, Kind::Evidence, None, &log::Evidence { name: name.to_owned(), sources, model })?;
+        transaction.commit()?;
+        self.learn()?;
+        Ok(added)
+    }
+
+    /// That a model's evidence can be added to this one's, and its scenes be read in the same way.
+    ///
+    /// # Errors
+    /// [`MemoryError`] with the first difference.
+    pub fn agrees(&self, model: &LearnedModel, name: &str) -> Result<(), MemoryError> {
+        self.check_kind(model, name).map_err(|kind| kind.of(&self.file))
+    }
+
+    fn check_kind(&self, model: &LearnedModel, name: &str) -> Result<(), MemoryErrorKind> {
+        check_addable(model, name)?;
+        let basis = &self.basis;
+        let difference = match model.agrees(&basis.model.hierarchy, &basis.parse) {
+            Err(difference) => difference.between("the model", "the memory"),
+            Ok(()) if model.options != basis.options => "it was learned with other options".to_owned(),
+            Ok(()) => return Ok(()),
+        };
+        Err(MemoryErrorKind::Disagrees { model: name.to_owned(), difference })
+    }
+
+    /// Keeps what happens in an episode, as it happens.
+    pub fn episode(&mut self, header: TraceHeader) -> EpisodeLog<'_> {
+        EpisodeLog::new(&self.file, &self.connection, header)
+    }
+
+    /// Takes a source back: from now on everything is as if it had never been there. Its entries stay in the log. The same
+    /// trace seen again later counts again.
+    ///
+    /// # Errors
+    /// [`MemoryError`]: of kind [`NotKnown`](MemoryErrorKind::NotKnown) if nothing is known from it.
+    pub fn forget(&mut self, source: SourceId) -> Result<(), MemoryError> {
+        self.try_forget(source).map_err(|kind| kind.of(&self.file))
+    }
+
+    fn try_forget(&mut self, source: SourceId) -> Result<(), MemoryErrorKind> {
+        let transaction = self.connection.transaction_with_behavior(TransactionBehavior::Immediate)?;
+        let mut entries = Vec::new();
+        for entry in list(&transaction, Wanted::Of(Kind::Evidence))? {
+            if entry.content::<log::Evidence>()?.sources.contains(&source) {
+                entries.push(entry.number);
+            }
+        }
+        for entry in list(&transaction, Wanted::Of(Kind::Ended))? {
+            if entry.content::<log::Ended>()?.source == source {
+                entries.extend(entry.episode);
+            }
+        }
+        for episode in under_way(&transaction)? {
+            let trace = episode_trace(&transaction, episode, &self.basis)?;
+            if trace.is_ok_and(|trace| trace.source_id(&self.basis.model.hierarchy) == source) {
+                entries.push(episode);
+            }
+        }
+        let before = taken_back(&transaction)?;
+        entries.retain(|entry| !before.contains(&(*entry, source)));
+        if entries.is_empty() {
+            return Err(MemoryErrorKind::NotKnown(source));
+        }
+        append(&transaction, Kind::Forgotten, None, &log::Forgotten { source, entries })?;
+        transaction.commit()?;
+        self.learn()
+    }
+
+    /// All entries, in the order in which they were written. In time and memory of the log.
+    ///
+    /// # Errors
+    /// [`MemoryError`] at the first that cannot be read.
+    pub fn entries(&self) -> Result<Vec<Logged>, MemoryError> {
+        logged(&self.connection).map_err(|kind| kind.of(&self.file))
+    }
+}
+
+/// That what a model was learned from can be kept source by source.
+fn check_addable(model: &LearnedModel, name: &str) -> Result<(), MemoryErrorKind> {
+    let is_compact = model.evidence.is_compact();
+    if is_compact { Err(MemoryErrorKind::Compact { model: name.to_owned() }) } else { Ok(()) }
+}
+
+/// What of a model does not follow from its evidence.
+fn basis_of(model: &LearnedModel) -> LearnedModel {
+    let LearnedModel { model, domain, declared_predicates, parse, options, .. } = model;
+    let (hierarchy, constants) = (model.hierarchy.clone(), model.constants.clone());
+    let mut basis = LearnedModel {
+        model: ActionModel { hierarchy, constants, ..ActionModel::default() },
+        domain: domain.clone(),
+        parse: ParseConfig { ignore: parse.ignore.clone(), ..ParseConfig::default() },
+        options: options.clone(),
+        ..LearnedModel::default()
+    };
+    basis.declare(declared_predicates.clone());
+    basis
+}
+
+fn learned_from(evidence: Evidence, basis: &LearnedModel) -> Result<LearnedModel, MemoryErrorKind> {
+    let LearnedModel { model, domain, declared_predicates, parse, options, .. } = basis;
+    let (mut learned, _) = learn_evidence(&model.hierarchy, parse, evidence, options)?;
+    learned.domain.clone_from(domain);
+    learned.model.constants.clone_from(&model.constants);
+    learned.declare(declared_predicates.clone());
+    Ok(learned)
+}
+
+/// The sum that the file keeps, with what was learned from it, if this program made it.
+fn kept_fold(connection: &Connection) -> Result<Option<(Fold, LearnedModel)>, MemoryErrorKind> {
+    let query = "SELECT up_to, model FROM fold WHERE program = ?1";
+    let kept = connection.query_row(query, [PROGRAM], |row| Ok((row.get(0)?, row.get::<_, String>(1)?)));
+    let Some((up_to, model)) = kept.optional()? else { return Ok(None) };
+    // What can be summed up again does no harm.
+    let Ok(learned) = LearnedModel::from_json(&model) else { return Ok(None) };
+    Ok(Some((Fold { up_to, evidence: learned.evidence.clone() }, learned)))
+}
