@@ -179,6 +179,9 @@ impl Episode {
 
     /// What follows from an input that answers the command that stands.
     fn answer(&mut self, input: Input, observer: &mut dyn Observer) -> Result<Command, EpisodeError> {
+        if let (Phase::AwaitingReset, Input::Reset { state, .. }) = (self.phase, &input) {
+            self.name_objects_as_in(state);
+        }
         match (self.phase, self.completed(input)) {
             (Phase::AwaitingReset, Input::Reset { state, instance, .. }) => self.begin(state, instance, observer),
             (Phase::AwaitingApproval, Input::Approve { .. }) => self.advance(observer),

@@ -24,6 +24,9 @@ pub struct Options {
     pub max_proposals: u64,
     /// The instance of the world that names belong to, whatever the world says.
     pub instance: Option<Symbol>,
+    /// Take an object that the task mentions for the one that the world calls so but for upper and lower case, which PDDL
+    /// does not tell apart.
+    pub ignores_case: bool,
 }
 
 impl Default for Options {
@@ -37,6 +40,7 @@ impl Default for Options {
             retries: None,
             max_proposals: 12,
             instance: None,
+            ignores_case: false,
         }
     }
 }

@@ -272,6 +272,7 @@ impl Episode {
             proposal: None,
             account: saved.account,
         };
+        episode.name_objects_as_in(&episode.state.clone());
         if let Some(mut execution) = saved.execution {
             let made_for = std::mem::take(&mut execution.made_for).restored(&episode.model.hierarchy)?;
             let planned_with = episode.planned_on(&execution.terms, &made_for)?;

@@ -225,6 +225,8 @@ impl Run {
     /// Carries out a task and tells of it; how it ended, or nothing if it was interrupted and the environment ended.
     fn carry_out(&self, to_do: ToDo<'_>, session: &mut Session<'_>) -> Result<Option<Ending>, Failure> {
         let ToDo { path, what, reset } = to_do;
+        // PDDL does not tell upper from lower case.
+        let ignores_case = matches!(what, TaskInput::Problem(_));
         let (model, task) = session.pose(path, what)?;
         let Session { clock, interrupt, quiet, input, memory, options, world, narrator, experience, told_keys, .. } =
             session;
@@ -235,9 +237,9 @@ impl Run {
         narrator.planning = Duration::ZERO;
         narrator.hierarchy = model.hierarchy.clone();
         let budget = narrator.bounds(self.planning.limits.budget(*clock, interrupt, Some(EXPANSIONS)));
-        let mut episode =
-            Episode::new(Arc::clone(&model), task.goal.clone(), options.clone(), experience.clone(), budget)
-                .with_values(task.values);
+        let options = Options { ignores_case, ..options.clone() };
+        let mut episode = Episode::new(Arc::clone(&model), task.goal.clone(), options, experience.clone(), budget)
+            .with_values(task.values);
         let mut parser = Parser::new(model.hierarchy.clone(), input.parse()).knowing(&model.predicates);
         let mut confirm = |plan: &Plan| confirm(self.confirm, plan, &model, interrupt);
         let header = TraceHeader { task: name.clone(), goal: task.goal };

@@ -43,6 +43,7 @@ mod pre_states;
 mod predicate_name;
 mod printable;
 mod provenance;
+mod renaming;
 mod settled;
 mod similar;
 mod source;

@@ -1,5 +1,7 @@
 //! What the field's benchmarks consist of, a domain, trajectories and problems, with models that are learned from them.
 
+use std::process::Command;
+
 use crate::common::{Folder, Transcript};
 
 const DOMAIN: &str = "(define (domain Night-Shift) (:requirements :typing)
@@ -92,6 +94,48 @@ fn shift_of_a_larger_domain() -> Folder {
     let learned = "learn 1.trajectory 2.trajectory --types domain.pddl --problems P --actor none -o shift.json";
     folder.run(learned).succeeds();
     folder
+}
+
+/// An environment that washes, and calls things as it likes: `Tram_2` where PDDL has `tram_2`.
+const DEPOT: &str = r#"import json, sys
+for line in sys.stdin:
+    asked = json.loads(line)
+    answer = {"id": asked["id"], "ok": True}
+    if asked["op"] == "hello":
+        answer.update(name="depot", reset=True, protocol="env/1")
+    elif asked["op"] == "reset":
+        how = {"Tram_2": "dirty", "BUS_7": "dirty"}
+    elif asked["op"] == "act":
+        how[asked["action"]["args"][0]] = "clean"
+        answer.update(executed=True)
+    if asked["op"] in ("reset", "act", "observe"):
+        objects = {"Tram_2": "Tram", "BUS_7": "Bus", "Depot": "stop"}
+        atoms = [f"{said}({line})" for line, said in how.items()] + [f"at({line},Depot)" for line in how]
+        answer.update(state={"objects": objects, "atoms": atoms})
+    print(json.dumps(answer), flush=True)
+"#;
+
+#[test]
+fn an_environment_may_tell_upper_from_lower_case() {
+    if !Command::new("python3").arg("--version").output().is_ok_and(|output| output.status.success()) {
+        println!("skipped: there is no python3");
+        return;
+    }
+    let folder = shift();
+    folder.write("depot.py", DEPOT);
+    let mut transcript = Transcript::default();
+    for (title, tram, goal) in [
+        ("an atom", "tram_2", "(clean tram_2)"),
+        ("a formula over objects and a constant", "TRAM_2", "(or (clean tram_2) (not (at bus_7 depot)))"),
+        ("all of them", "Tram_2", "(forall (?l - Line) (and (clean ?l) (at ?l depot)))"),
+        ("of another name", "tram-2", "(clean tram-2)"),
+    ] {
+        let objects = format!("(:objects Bus_7 - bus {tram} - tram)");
+        let text = format!("(define (problem Late) (:domain night-shift) {objects} (:init) (:goal {goal}))");
+        folder.write("late.pddl", text);
+        transcript.add(title, &folder.run("run shift.json late.pddl --env 'python3 depot.py'"));
+    }
+    insta::assert_snapshot!(transcript.0);
 }
 
 #[test]
