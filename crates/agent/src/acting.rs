@@ -9,6 +9,7 @@ use typelift_plan::Ban;
 use typelift_world::{Expected, Record, TraceAction, Verdict};
 
 use crate::account::{Ending, Failure, SeenDone};
+use crate::actors::actors;
 use crate::deed::{Deed, Failed};
 use crate::episode::{Episode, EpisodeError, Phase};
 use crate::event::{Event, Observer};
@@ -220,12 +221,11 @@ impl Episode {
             (StepResult::Rejected, Some(reason)) => format!("{} was rejected: {reason}", step.call),
             (result, reason) => format!("{} {}", step.call, reason.as_deref().unwrap_or(result.phrase())),
         };
-        let is_actor = |object: &&Symbol| before.objects.get(*object).is_some_and(|ty| self.model.is_actor(*ty));
         let failed = Failed {
             deed,
             task: self.task,
             ban: execution.expected(before).map(|action| Ban::of(&action)),
-            actors: step.objects.iter().filter(is_actor).cloned().collect(),
+            actors: actors(&step, &self.model, before),
             in_goal: step.objects.iter().filter(|object| self.goal.mentions(object)).cloned().collect(),
             objection,
             useless: self.options.restart,

@@ -8,6 +8,7 @@
 
 mod account;
 mod acting;
+mod actors;
 mod blame;
 mod deed;
 mod episode;
@@ -15,6 +16,7 @@ mod event;
 mod execution;
 mod experience;
 mod monitor;
+mod naming;
 mod objection;
 mod options;
 mod planning;
