@@ -22,7 +22,8 @@ use crate::learn_report::{Report, print_counts};
 use crate::limits::{Clock, Limits};
 use crate::overwriting::{Output, keep_inputs};
 use crate::style::{HEAD, HINT, WARNING};
-use crate::watchdog::within;
+use crate::waiting::Waiting;
+use crate::watchdog::within_shown;
 
 /// Learn actions from demonstrations
 #[derive(Debug, clap::Args)]
@@ -104,7 +105,9 @@ impl Learn {
         }
         let output = self.output.as_ref().or(self.into.as_ref()).filter(|_| !self.dry_run);
         keep_inputs(output.map(|path| Output::File(path)), self.inputs())?;
-        let learned = within(clock, self.limits, || self.learn())?;
+        let waiting = Waiting::new(quiet || self.json);
+        let learn = || waiting.during("learning", || self.learn());
+        let learned = within_shown(clock, self.limits, &waiting, learn)?;
         let Learned { model, report, notes, .. } = &learned;
         // First, so that the model is written even if standard output is closed.
         let text = model.to_json()?;

@@ -35,6 +35,7 @@ mod show;
 mod show_vocabulary;
 mod style;
 mod validate;
+mod waiting;
 mod watchdog;
 mod why;
 

@@ -11,6 +11,7 @@ use typelift::model::{Budget, Hierarchy, Stop};
 use typelift::words::{line, wire_event};
 
 use crate::style::painted;
+use crate::waiting::Waiting;
 
 /// Tells events to a person, writes them to a file, and measures planning.
 #[derive(Debug, Default)]
@@ -28,11 +29,13 @@ pub(crate) struct Narrator {
     /// The time spent planning.
     pub(crate) planning: Duration,
     started: Option<Instant>,
+    /// Tells that planning takes its time.
+    waiting: Waiting,
 }
 
 impl Narrator {
     pub(crate) fn new(aloud: bool, events: Option<BufWriter<File>>) -> Self {
-        Self { aloud, events, ..Self::default() }
+        Self { aloud, events, waiting: Waiting::new(!aloud), ..Self::default() }
     }
 
     /// The same budget, which is used up when an event cannot be written: nothing more is done of which nobody would know.
@@ -49,6 +52,7 @@ impl Narrator {
 
 impl Observer for Narrator {
     fn event(&mut self, event: &Event) {
+        self.waiting.end();
         match event {
             Event::PlanningStarted { .. } => self.started = Some(Instant::now()),
             Event::PlanningEnded { .. } => {
@@ -67,6 +71,9 @@ impl Observer for Narrator {
             && let Some(line) = line(event)
         {
             anstream::eprintln!("{}", painted(&line));
+        }
+        if self.started.is_some() {
+            self.waiting.begin("planning");
         }
     }
 }

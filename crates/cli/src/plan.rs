@@ -22,10 +22,14 @@ use crate::planning_options::PlanningOptions;
 use crate::remembered::read_remembered;
 use crate::resident::memory_held_from_now;
 use crate::style::{BAD, HEAD, HINT, WARNING, painted};
+use crate::waiting::Waiting;
 use crate::watchdog::watched;
 
 /// Where the plan of a PDDL domain is written unless the user says otherwise, as Fast Downward does.
 const DEFAULT_OUTPUT: &str = "sas_plan";
+
+/// What takes its time, as it is said on a terminal.
+const PLANNING: &str = "planning";
 
 /// Plans that may be asked for.
 const MOST_PLANS: u64 = 1000;
@@ -91,10 +95,13 @@ struct FirstAnswer {
 impl Plan {
     pub(crate) fn run(&self, clock: Clock, quiet: bool) -> Result<Exit, Failure> {
         let interrupt = Interrupt::install()?;
+        let waiting = Waiting::new(quiet || self.planning.json);
+        let line = waiting.clone();
+        interrupt.on_raised(move || line.end());
         let memory = memory_held_from_now();
         let budget = self.planning.limits.budget(clock, &interrupt, None);
         let FirstAnswer { model, task, output, existing, undemonstrated, read, proposal } =
-            self.begin_watched(clock, &budget, &interrupt, quiet)?;
+            self.begin_watched(clock, &budget, &interrupt, &waiting, quiet)?;
         // The answer need not wait for the memory to be freed.
         let mut proposal = match proposal {
             Ok(proposal) => ManuallyDrop::new(proposal),
@@ -126,11 +133,10 @@ impl Plan {
             if !self.better && plans.len() as u64 == self.plans {
                 break proposal.outcome.clone();
             }
-            proposal.outcome = if self.better {
-                proposal.better_plan(plans.last().map_or(0, FoundPlan::cost), &budget)?
-            } else {
-                proposal.next_plan(&for_another)?
-            };
+            proposal.outcome = waiting.during(PLANNING, || match self.better {
+                true => proposal.better_plan(plans.last().map_or(0, FoundPlan::cost), &budget),
+                false => proposal.next_plan(&for_another),
+            })?;
         };
         self.write_plans(output.as_deref(), &plans, &proposal.model, &task, &interrupt)?;
         if let Some(file) = output.as_deref().filter(|_| !quiet) {
@@ -149,7 +155,7 @@ impl Plan {
         }
         out.flush()?;
         if plans.is_empty() {
-            self.report_none(&last, &proposal, &model, &task, &budget);
+            self.report_none(&last, &proposal, &model, &task, &budget, &waiting);
             say_undemonstrated(&undemonstrated, &task);
         } else if !quiet {
             let limited = if self.better { &budget } else { &for_another };
@@ -165,18 +171,28 @@ impl Plan {
         clock: Clock,
         budget: &Budget,
         interrupt: &Interrupt,
+        waiting: &Waiting,
         quiet: bool,
     ) -> Result<FirstAnswer, Failure> {
         let json = self.planning.json;
         let limits = if self.planning.planner.is_given() { Limits::default() } else { self.planning.limits.limits };
+        let line = waiting.clone();
         let last_words = move |stop| {
+            line.end();
             // If printing fails, that cannot be printed either.
             say_stop(stop, json, clock.elapsed()).unwrap_or(stop.into())
         };
-        watched(clock, limits, last_words, || self.begin(clock, budget, interrupt, quiet))
+        watched(clock, limits, last_words, || self.begin(clock, budget, interrupt, waiting, quiet))
     }
 
-    fn begin(&self, clock: Clock, budget: &Budget, interrupt: &Interrupt, quiet: bool) -> Result<FirstAnswer, Failure> {
+    fn begin(
+        &self,
+        clock: Clock,
+        budget: &Budget,
+        interrupt: &Interrupt,
+        waiting: &Waiting,
+        quiet: bool,
+    ) -> Result<FirstAnswer, Failure> {
         let model = &self.planning.model;
         let input = match &self.memory {
             None => model.read()?,
@@ -195,7 +211,8 @@ impl Plan {
         interrupt.heeded();
         let read = clock.elapsed();
         let options = self.planning.agent_options(is_given)?;
-        let proposal = match propose(&model, &task, &Restrictions::default(), &options, budget) {
+        let proposed = waiting.during(PLANNING, || propose(&model, &task, &Restrictions::default(), &options, budget));
+        let proposal = match proposed {
             Err(ProposeError::Stopped(stop)) => Err(stop),
             proposal => Ok(proposal?),
         };
@@ -287,7 +304,15 @@ impl Plan {
     }
 
     /// Says why there is no plan, and whether imagination would help; if not, what may be wrong with the goal.
-    fn report_none(&self, outcome: &Outcome, proposal: &Proposal, model: &ActionModel, task: &Task, budget: &Budget) {
+    fn report_none(
+        &self,
+        outcome: &Outcome,
+        proposal: &Proposal,
+        model: &ActionModel,
+        task: &Task,
+        budget: &Budget,
+        waiting: &Waiting,
+    ) {
         let ending = match outcome {
             Outcome::Stopped(Stop::Expansions) if self.planning.planner.is_given() => "the planner gave up".to_owned(),
             outcome => ending(outcome),
@@ -303,7 +328,16 @@ impl Plan {
         {
             anstream::eprintln!("{HINT}hint{HINT:#}: {advice}");
         }
-        if explanation.is_none() || self.hint_at_imagining(outcome, model, task, budget) {
+        if explanation.is_none() {
+            return;
+        }
+        let imagined = waiting.during(PLANNING, || self.plan_if_imagining(outcome, model, task, budget));
+        if let Some(plan) = imagined {
+            anstream::eprintln!(
+                "{HINT}hint{HINT:#}: --imagine finds a plan of {} resting on {}",
+                count(plan.len() as u64, "step"),
+                count(plan.imagined_actions() as u64, "imagined action")
+            );
             return;
         }
         for mismatch in proposal.goal_type_mismatches() {
@@ -311,22 +345,24 @@ impl Plan {
         }
     }
 
-    /// Says that imagination would help, if it was not asked for and does; whether it said so.
-    fn hint_at_imagining(&self, outcome: &Outcome, model: &ActionModel, task: &Task, budget: &Budget) -> bool {
+    /// The plan that there would be with imagination, if that was not asked for.
+    fn plan_if_imagining(
+        &self,
+        outcome: &Outcome,
+        model: &ActionModel,
+        task: &Task,
+        budget: &Budget,
+    ) -> Option<FoundPlan> {
         if self.planning.model.imagine || *outcome != Outcome::Unsolvable {
-            return false;
+            return None;
         }
         let limited = Budget { expansions: Some(HINT_EXPANSIONS), ..budget.clone() };
-        let Ok(options) = self.planning.agent_options(false) else { return false };
+        let options = self.planning.agent_options(false).ok()?;
         let options = Options { imagine: Some(imagine::Options::default()), ..options };
-        let imagined = propose(model, task, &Restrictions::default(), &options, &limited);
-        let Ok(Proposal { outcome: Outcome::Solved(plan), .. }) = imagined else { return false };
-        anstream::eprintln!(
-            "{HINT}hint{HINT:#}: --imagine finds a plan of {} resting on {}",
-            count(plan.len() as u64, "step"),
-            count(plan.imagined_actions() as u64, "imagined action")
-        );
-        true
+        match propose(model, task, &Restrictions::default(), &options, &limited) {
+            Ok(Proposal { outcome: Outcome::Solved(plan), .. }) => Some(plan),
+            _ => None,
+        }
     }
 
     /// Says why there are no more plans, where more were wanted, and at most so many expansions were allowed.

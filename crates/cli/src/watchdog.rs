@@ -11,6 +11,7 @@ use typelift::model::{MemoryLimit, Stop};
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::limits::{Clock, Interrupt, Limits};
+use crate::waiting::Waiting;
 
 /// What a time limit is overstepped by at most: this, and a twentieth; a limit of memory by a twentieth.
 const GRACE: Duration = Duration::from_millis(50);
@@ -33,9 +34,24 @@ pub(crate) fn watched<T>(
 
 /// Does some work, all of which is in vain if it takes more than is allowed.
 pub(crate) fn within<T>(clock: Clock, limits: Limits, work: impl FnOnce() -> Result<T, Failure>) -> Result<T, Failure> {
+    within_shown(clock, limits, &Waiting::default(), work)
+}
+
+/// The same where a line may tell of the work, which is erased before anything is said.
+pub(crate) fn within_shown<T>(
+    clock: Clock,
+    limits: Limits,
+    shown: &Waiting,
+    work: impl FnOnce() -> Result<T, Failure>,
+) -> Result<T, Failure> {
     let stopped = |stop: Stop| Failure::new(stop.into(), stop);
     let budget = limits.budget(clock, &Interrupt::default());
-    let done = watched(clock, limits, move |stop| stopped(stop).report(), work)?;
+    let line = shown.clone();
+    let last_words = move |stop| {
+        line.end();
+        stopped(stop).report()
+    };
+    let done = watched(clock, limits, last_words, work)?;
     // The watchdog leaves some grace.
     match budget.stopped() {
         Some(stop) => Err(stopped(stop)),
