@@ -96,7 +96,7 @@ pub(crate) fn forget(evidence: &mut Evidence, into: &Path, sources: &[String]) -
             let error = format!("--forget {text}: {} does not say what it was learned from", into.display());
             return Err(Failure::bad_input(error).with_hint("Learn it anew from its traces."));
         }
-        let id = source_called(evidence, text, "--forget ")?;
+        let id = source_called(evidence, text)?;
         evidence.take_out(id).map_err(|error| {
             let hint = "Learn it anew from its traces, without `--compact`.";
             Failure::bad_input(format!("--forget {text}: {}: {error}", into.display())).with_hint(hint)
@@ -105,9 +105,7 @@ pub(crate) fn forget(evidence: &mut Evidence, into: &Path, sources: &[String]) -
     Ok(())
 }
 
-/// The source that a person means: by a file with its content, its name, or the first digits of its id. `option` stands before
-/// the text where it is not understood.
-pub(crate) fn source_called(evidence: &Evidence, text: &str, option: &str) -> Result<SourceId, Failure> {
+fn source_called(evidence: &Evidence, text: &str) -> Result<SourceId, Failure> {
     let path = Path::new(text);
     if path.is_file() {
         let id = source_of_file(path)?;
@@ -127,9 +125,9 @@ pub(crate) fn source_called(evidence: &Evidence, text: &str, option: &str) -> Re
     };
     match found.as_slice() {
         [(id, _)] => Ok(**id),
-        [] => Err(Failure::bad_input(format!("{option}{text}: nothing was learned from it"))
+        [] => Err(Failure::bad_input(format!("--forget {text}: the model was not learned from it"))
             .with_hint(format!("It was learned from {}.", listed(&mut known.clone())))),
-        several => Err(Failure::bad_input(format!("{option}{text}: this may be any of several"))
+        several => Err(Failure::bad_input(format!("--forget {text}: this may be any of several"))
             .with_hint(format!("Say which by its id: {}.", listed(&mut several.iter().copied())))),
     }
 }

@@ -19,7 +19,6 @@ mod learn;
 mod learn_into;
 mod learn_report;
 mod limits;
-mod memory;
 mod narrate;
 mod overwriting;
 mod pddl;
@@ -74,7 +73,6 @@ enum Command {
     Plan(plan::Plan),
     Export(export::Export),
     Run(run::Run),
-    Memory(memory::MemoryCommand),
     CheckEnv(check_env::CheckEnv),
     Validate(validate::Validate),
     Pddl(pddl::Pddl),
@@ -104,7 +102,6 @@ fn main() -> ExitCode {
         Command::Plan(plan) => plan.run(clock, quiet),
         Command::Export(export) => export.run(clock, quiet),
         Command::Run(run) => run.run(clock, quiet),
-        Command::Memory(memory) => memory.run(quiet),
         Command::CheckEnv(check_env) => check_env.run(),
         Command::Validate(validate) => validate.run(clock, quiet),
         Command::Pddl(pddl) => pddl.run(quiet),

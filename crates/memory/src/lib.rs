@@ -7,7 +7,6 @@
 //! Times are kept for people; no result depends on them.
 #![deny(missing_docs)]
 
-mod checked;
 mod episode;
 mod error;
 mod fold;
@@ -18,7 +17,6 @@ mod memory;
 mod scene_change;
 mod version;
 
-pub use checked::{Checked, check};
 pub use episode::EpisodeLog;
 pub use error::{MemoryError, MemoryErrorKind};
 pub use fold::Unread;

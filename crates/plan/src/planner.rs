@@ -66,7 +66,7 @@ impl Planner {
         Ok(Self { search, given: Vec::new(), first: None, alternatives: None })
     }
 
-    /// The next plan. A further one does without a call of every plan given before, and without useless steps: that there
+    /// The next plan, without useless steps. A further one does without a call of every plan given before: that there
     /// is no more is said when every other plan makes all calls of a given one. Of a strategy whose first plan is a cheapest
     /// one the further ones are the cheapest of those. The budget's expansions are for this call.
     pub fn next_plan(&mut self, budget: &Budget) -> Outcome {
@@ -98,6 +98,7 @@ impl Planner {
             let before = self.search.report().expansions;
             match self.search.next(cost_bound, &budget) {
                 Found::Plan(plan) => {
+                    let plan = self.search.level().without_useless_steps(plan);
                     let calls = calls(&plan);
                     if !self.given.iter().any(|(given, cost)| *given == calls && *cost <= plan.cost()) {
                         self.given.push((calls, plan.cost()));

@@ -32,11 +32,15 @@ impl Space {
 
     /// A plan without the steps that it does as well without: each in turn is left out, with what can then not be done any
     /// more, if the rest still is a plan (Nakhost and Müller 2010). Which steps are left over depends on the order, and
-    /// finding the fewest is hard (Fink and Yang 1992).
+    /// finding the fewest is hard (Fink and Yang 1992). In time of the square of the plan's length.
     pub(crate) fn without_useless_steps(&self, plan: Plan) -> Plan {
         let Some(mut actions) = self.actions_of(&plan) else { return plan };
-        while let Some(fewer) = (0..actions.len()).find_map(|step| self.without(&actions, step)) {
-            actions = fewer;
+        let mut step = 0;
+        while step < actions.len() {
+            match self.without(&actions, step) {
+                Some(fewer) => actions = fewer,
+                None => step += 1,
+            }
         }
         self.plan(&actions)
     }
