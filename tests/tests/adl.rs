@@ -117,7 +117,7 @@ fn every_folder_has_its_line() {
 
 #[test]
 fn what_is_said_in_other_words_is_the_same() {
-    for name in ["either", "nested-effects"] {
+    for name in ["either", "nested-effects", "several-parents"] {
         let folder = root().join(name);
         let costs = ["domain.pddl", "equivalent.pddl"].map(|domain| {
             let (model, task) = compiled(&folder, domain);

@@ -54,13 +54,16 @@ struct Generator<'t> {
 
 /// A domain with a problem.
 pub(crate) fn domain_and_problem(tape: &mut Tape) -> (Domain, Problem) {
-    let all = [("vehicle", "object"), ("truck", "vehicle"), ("place", "object"), ("boat", "vehicle")];
+    // With all of them, a boat is a place as well.
+    let all =
+        [("vehicle", "object"), ("truck", "vehicle"), ("place", "object"), ("boat", "vehicle"), ("boat", "place")];
     let declared = 1 + tape.below(all.len());
     let edges = &all[..declared];
     let types: Vec<(Symbol, Symbol)> = edges.iter().map(|(c, p)| (Symbol::new(c), Symbol::new(p))).collect();
     let hierarchy = Hierarchy::from_edges(edges.iter().copied()).unwrap_or_default();
     let mut names = symbols(&["object"]);
     names.extend(types.iter().map(|(child, _)| child.clone()));
+    names.dedup();
     let (objects, scope, predicates) = (Vec::new(), Vec::new(), Vec::new());
     let mut generator = Generator { tape, hierarchy, types: names, objects, scope, predicates };
     let constants = generator.objects(&["depot", "home"], 0);

@@ -41,7 +41,7 @@ impl<'a> Types<'a> {
             Self::Object(given) => (given, false),
             Self::Anywhere => return None,
         };
-        let fits = |g, w| hierarchy.is_a(g, w) || is_variable && hierarchy.is_a(w, g);
+        let fits = |g, w| if is_variable { !hierarchy.disjoint(g, w) } else { hierarchy.is_a(g, w) };
         (!given.iter().any(|&g| wanted.iter().any(|&w| fits(g, w)))).then_some(given)
     }
 }

@@ -24,7 +24,7 @@ pub struct TypeEdge {
 /// Spellings of one name that differ in case are one type, spelled as where it is first declared.
 ///
 /// # Errors
-/// [`PddlError`] if the text is neither of the two, or a parent is `(either …)`.
+/// [`PddlError`] if the text is neither of the two, or no type stands in an `(either …)`.
 pub fn read_types(text: &str) -> Result<Vec<TypeEdge>, PddlError> {
     let document = Document::read(text)?;
     let root = document.only_root()?;

@@ -1,7 +1,7 @@
 //! Conjunctions of literals: equalities are solved, and what cannot hold is noticed.
 //!
 //! An equality of two variables makes them one, of the more specific of their types; of types that share no object, it
-//! cannot hold. An equality of a variable and an object puts the object in the variable's place.
+//! cannot hold, and of types that only share a kind below both, it stays. An equality of a variable and an object puts the object in the variable's place.
 
 use typelift_model::{Literal, Parameter, Term, TypeId};
 
@@ -84,7 +84,7 @@ impl Solver<'_> {
         self.world.hierarchy.is_a(ty, ancestor)
     }
 
-    /// The more specific of two types; `None` if they share no object.
+    /// The more specific of two types, if one is.
     fn meet(&self, a: TypeId, b: TypeId) -> Option<TypeId> {
         if self.is_a(a, b) { Some(a) } else { self.is_a(b, a).then_some(b) }
     }
@@ -106,7 +106,11 @@ impl Solver<'_> {
         match (a.clone().min(b.clone()), a.max(b)) {
             (Term::Param(kept), Term::Param(gone)) => {
                 let (kept_type, gone_type) = (self.variables[kept as usize].ty, self.variables[gone as usize].ty);
-                let both = self.meet(kept_type, gone_type)?;
+                if self.world.hierarchy.disjoint(kept_type, gone_type) {
+                    return None;
+                }
+                // What is of two types of which none is the other's is of no single one.
+                let Some(both) = self.meet(kept_type, gone_type) else { return Some(false) };
                 if (gone as usize) < self.rigid {
                     return Some(false);
                 }
@@ -138,7 +142,7 @@ impl Solver<'_> {
             (Term::Const(_), Term::Const(_)) => false,
             (Term::Param(_), Term::Const(_)) => self.is_a(self.ty(b)?, self.ty(a)?),
             (Term::Const(_), Term::Param(_)) => self.is_a(self.ty(a)?, self.ty(b)?),
-            (Term::Param(_), Term::Param(_)) => self.meet(self.ty(a)?, self.ty(b)?).is_some(),
+            (Term::Param(_), Term::Param(_)) => !self.world.hierarchy.disjoint(self.ty(a)?, self.ty(b)?),
         };
         if possible { None } else { Some(false) }
     }

@@ -1,0 +1,12 @@
+; The same with one parent a type, since Fast Downward knows no more: what is of one kind alone stands for itself.
+(define (domain several-parents)
+  (:requirements :adl :derived-predicates)
+  (:types thing - object both hammer sword - thing knife axe - both dagger - knife)
+  (:predicates (clean ?t - thing) (sharp ?w - thing) (shiny ?x - thing) (armed) (shown))
+  (:derived (armed) (exists (?b - both) (sharp ?b)))
+  (:action whet-both :parameters (?b - both) :effect (and (sharp ?b) (not (clean ?b))))
+  (:action whet-sword :parameters (?s - sword) :effect (sharp ?s))
+  (:action wash-both :parameters (?b - both) :effect (clean ?b))
+  (:action wash-hammer :parameters (?h - hammer) :effect (clean ?h))
+  (:action polish :parameters (?x - thing) :precondition (or (clean ?x) (sharp ?x)) :effect (shiny ?x))
+  (:action show :precondition (and (armed) (forall (?x - thing) (shiny ?x))) :effect (shown)))
