@@ -96,7 +96,11 @@ impl ActionBelief {
         let mut causes = Vec::new();
         for (at, ty) in types.iter().enumerate().filter_map(|(at, ty)| Some((at, (*ty)?))) {
             if !self.is_settled(hierarchy, at, ty) {
-                let accepted = self.types[at].accepts(ty);
+                let mut accepted = self.types[at].accepts(ty);
+                if !self.has_failed {
+                    // What was generalized covers what is likely; beyond it there is imagination.
+                    accepted /= 2.0;
+                }
                 causes.push((Cause::Type(at, ty), (1.0 - accepted) / accepted));
             }
         }

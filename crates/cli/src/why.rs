@@ -1,17 +1,20 @@
 //! `typelift why`.
 
+use std::collections::BTreeSet;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use typelift::belief::{Belief, Question};
-use typelift::model::{GroundAtom, GroundCall, Hierarchy, LearnedModel, State, Symbol, TypeId, json_message};
-use typelift::words::{CallQuestion, WhyView, why_lines};
+use typelift::model::{
+    ActionModel, GroundAtom, GroundCall, Hierarchy, LearnedModel, State, Symbol, TypeId, did_you_mean, json_message,
+};
+use typelift::words::{CallQuestion, WhyView, count, why_lines};
 use typelift::world::{FileError, Parser, read_text};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::{ModelInput, TaskInput, read_model_input};
-use crate::style::painted;
+use crate::style::{HINT, painted};
 
 /// Say how likely a call works, and what speaks against it
 #[derive(Debug, clap::Args)]
@@ -66,6 +69,9 @@ impl Why {
             let judgement = belief.judge(&question);
             let view = WhyView::new(call, judgement);
             all_known &= !view.unknown;
+            if view.unknown && !quiet {
+                say_what_is_unknown(&view.call, &types, &learned(&input, &self.model)?.model);
+            }
             if self.json {
                 writeln!(out, "{}", serde_json::to_string(&view).unwrap_or_default())?;
             } else {
@@ -96,6 +102,32 @@ impl Why {
         });
         asked.collect()
     }
+}
+
+/// Says why nothing is known of a call: of its name, its number of arguments, or the type of one of them.
+fn say_what_is_unknown(call: &GroundCall, types: &[Option<TypeId>], model: &ActionModel) {
+    let mut of_name = model.actions.iter().map(|schema| &schema.call).filter(|known| known.name == call.name);
+    let hint = match (of_name.next(), types.iter().position(Option::is_none)) {
+        (None, _) => {
+            let names: BTreeSet<&Symbol> = model.actions.iter().map(|schema| &schema.call.name).collect();
+            let near = did_you_mean(call.name.as_str(), names.iter().copied());
+            near.unwrap_or_else(|| {
+                let names: Vec<&str> = names.iter().map(|name| name.as_str()).collect();
+                format!("The calls of this model are {}.", names.join(", "))
+            })
+        }
+        (Some(known), _) if known.args.len() != call.args.len() => {
+            format!("{} takes {}.", call.name, count(known.args.len() as u64, "argument"))
+        }
+        (Some(_), Some(at)) => {
+            let (name, hierarchy) = (call.args[at].as_str(), &model.hierarchy);
+            let near = did_you_mean(name, hierarchy.types().map(|ty| hierarchy.name(ty)));
+            let near = near.map(|near| format!(" {near}")).unwrap_or_default();
+            format!("Nothing says of which type `{name}` is: name a type, or a task that has it with --task.{near}")
+        }
+        (Some(_), None) => return,
+    };
+    anstream::eprintln!("{HINT}hint{HINT:#}: {hint}");
 }
 
 /// The model with its evidence: a domain has none.
