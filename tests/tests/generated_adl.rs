@@ -2,7 +2,7 @@
 //! enumerated, and tells whether there is a plan, what the cheapest costs, which reasons are true and whether there is
 //! another plan. The evaluation shares nothing with compiler and planner.
 //!
-//! A hundred thousand tasks take some five minutes on a processor of their own:
+//! A hundred thousand tasks take some ten minutes on a processor of their own:
 //! `PROPTEST_CASES=85334 cargo test --release -p typelift-tests --test generated_adl`
 
 use std::cmp::Reverse;

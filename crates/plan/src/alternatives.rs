@@ -126,7 +126,6 @@ impl Alternatives {
         budget.expansions = budget.expansions.map(|allowed| allowed.saturating_sub(spent));
         match found {
             Found::Plan(plan) => {
-                let plan = search.level().without_useless_steps(plan);
                 self.found.insert((plan.cost(), self.number), (plan, left_out));
                 self.number += 1;
             }

@@ -267,12 +267,6 @@ impl GroundTask {
         self.schemas[op.schema].step(op.objects.clone(), op.cost)
     }
 
-    /// The schema's name of a ground action, and the objects put in place of its parameters.
-    pub(crate) fn named(&self, id: OpId) -> (&Symbol, &[Symbol]) {
-        let op = self.op(id);
-        (&self.schemas[op.schema].name, &op.objects)
-    }
-
     /// The number of facts, reached or not.
     pub fn fact_count(&self) -> usize {
         self.reachable.facts.len()

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use typelift_model::{ActionModel, Budget, GroundAtom, HashSet, Plan, Stop, Task};
+use typelift_model::{ActionModel, Budget, GroundAtom, HashSet, Stop, Task};
 
 use crate::Restrictions;
 use crate::explain::{Explanation, unreachable};
@@ -69,14 +69,6 @@ impl Level {
     /// Whether there is something to search.
     pub(crate) fn is_open(&self) -> bool {
         self.stages.is_some()
-    }
-
-    /// A plan of this level without the steps that it does as well without.
-    pub(crate) fn without_useless_steps(&self, plan: Plan) -> Plan {
-        match &self.stages {
-            Some(stages) => stages.space().without_useless_steps(plan),
-            None => plan,
-        }
     }
 
     /// Drops the search. Only what the grounding counted stays.

@@ -98,7 +98,6 @@ impl Planner {
             let before = self.search.report().expansions;
             match self.search.next(cost_bound, &budget) {
                 Found::Plan(plan) => {
-                    let plan = self.search.level().without_useless_steps(plan);
                     let calls = calls(&plan);
                     if !self.given.iter().any(|(given, cost)| *given == calls && *cost <= plan.cost()) {
                         self.given.push((calls, plan.cost()));

@@ -95,11 +95,6 @@ impl Stages {
         (self.stage, self.search) = (stage, search);
         Ok(())
     }
-
-    /// What is searched.
-    pub(crate) fn space(&self) -> &Space {
-        &self.space
-    }
 }
 
 impl Search for Stages {

@@ -162,7 +162,7 @@ impl Search for AStar {
             self.registry.unpack(node.state, &mut self.values);
             if space.task.is_goal(&self.values) {
                 if cost_bound.is_none_or(|bound| node.g < bound) {
-                    return Found::Plan(space.plan(&self.actions_to(id)));
+                    return Found::Plan(space.plan(self.actions_to(id)));
                 }
                 continue;
             }

@@ -267,7 +267,7 @@ impl Search for Lazy {
         if self.nodes.is_empty() {
             let id = self.insert_initial_state(space);
             if space.task.is_goal(&self.values) && cost_bound.is_none_or(|bound| bound > 0) {
-                return Found::Plan(space.plan(&[]));
+                return Found::Plan(space.plan(Vec::new()));
             }
             if limit == Some(0) {
                 self.nodes.clear();
@@ -311,7 +311,7 @@ impl Search for Lazy {
                 // A predecessor may have been reached again on another way since.
                 let costs = actions.iter().map(|&action| u64::from(space.task.actions.costs[action as usize]));
                 if cost_bound.is_none_or(|bound| costs.sum::<u64>() < bound) {
-                    return Found::Plan(space.plan(&actions));
+                    return Found::Plan(space.plan(actions));
                 }
                 continue;
             }

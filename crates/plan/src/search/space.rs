@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use typelift_model::{GroundAtom, HashMap, Plan, Symbol};
+use typelift_model::{GroundAtom, Plan};
 
 use crate::fdr::{ActionIndex, Fdr, SuccessorGenerator, Values};
 use crate::ground::GroundTask;
@@ -24,17 +24,11 @@ impl Space {
         Self { ground, task, successors, symmetry }
     }
 
-    /// These actions as a plan.
-    pub(crate) fn plan(&self, actions: &[ActionIndex]) -> Plan {
-        let ids = &self.task.actions.ids;
-        Plan { steps: actions.iter().map(|&action| self.ground.step(ids[action as usize])).collect() }
-    }
-
-    /// A plan without the steps that it does as well without: each in turn is left out, with what can then not be done any
-    /// more, if the rest still is a plan (Nakhost and Müller 2010). Which steps are left over depends on the order, and
-    /// finding the fewest is hard (Fink and Yang 1992). In time of the square of the plan's length.
-    pub(crate) fn without_useless_steps(&self, plan: Plan) -> Plan {
-        let Some(mut actions) = self.actions_of(&plan) else { return plan };
+    /// The plan that actions which lead to the goal are, without the steps that it does as well without: each in turn is
+    /// left out, with what can then not be done any more, if the rest still is a plan (Nakhost and Müller 2010). Which steps
+    /// are left over depends on the order, and finding the fewest is hard (Fink and Yang 1992). In time of the square of the
+    /// plan's length.
+    pub(crate) fn plan(&self, mut actions: Vec<ActionIndex>) -> Plan {
         let mut step = 0;
         while step < actions.len() {
             match self.without(&actions, step) {
@@ -42,19 +36,8 @@ impl Space {
                 None => step += 1,
             }
         }
-        self.plan(&actions)
-    }
-
-    /// The actions of a plan of this task.
-    fn actions_of(&self, plan: &Plan) -> Option<Vec<ActionIndex>> {
-        let mut wanted: HashMap<(&Symbol, &[Symbol]), Option<ActionIndex>> = HashMap::default();
-        wanted.extend(plan.steps.iter().map(|step| ((&step.action, step.objects.as_slice()), None)));
-        for (&id, action) in self.task.actions.ids.iter().zip(0..) {
-            if let Some(known) = wanted.get_mut(&self.ground.named(id)) {
-                *known = Some(action);
-            }
-        }
-        plan.steps.iter().map(|step| wanted[&(&step.action, step.objects.as_slice())]).collect()
+        let ids = &self.task.actions.ids;
+        Plan { steps: actions.iter().map(|&action| self.ground.step(ids[action as usize])).collect() }
     }
 
     /// The actions but for one and those that cannot be done without it, if they still lead to the goal.

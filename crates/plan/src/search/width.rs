@@ -227,7 +227,7 @@ impl Search for WidthFirst {
         let mut poll = Poll::new(budget);
         if self.nodes.is_empty() {
             if space.task.is_goal(&space.task.init) && cost_bound.is_none_or(|bound| bound > 0) {
-                return Found::Plan(space.plan(&[]));
+                return Found::Plan(space.plan(Vec::new()));
             }
             self.begin(space);
         }
@@ -237,7 +237,7 @@ impl Search for WidthFirst {
             }
             let Some(id) = self.pop() else { return Found::Nothing };
             if let Some(goal) = self.expand(space, id, cost_bound) {
-                return Found::Plan(space.plan(&self.actions_to(goal)));
+                return Found::Plan(space.plan(self.actions_to(goal)));
             }
             // A successor is a look at every fact that holds, and at a few landmarks.
             let work = 1 + self.applicable.len() * space.task.domains.len() / 8;
