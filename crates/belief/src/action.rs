@@ -2,18 +2,15 @@
 
 use std::collections::BTreeMap;
 
-use typelift_model::{ActionSchema, Hierarchy, LiftedAtom, Observations, Symbol, TypeId};
+use typelift_model::{ActionSchema, Hierarchy, LiftedAtom, Observations, TypeId};
 
-use crate::CHANCE;
 use crate::outcome::{Outcome, outcomes, worked_at};
 use crate::suspicion::{Pair, literal_odds, pair_odds, pairs};
 use crate::types::{Seen, TypeBelief};
+use crate::{CHANCE, MOST_ALIKE, odds};
 
 /// How often the blame is shared anew.
 const ROUNDS: usize = 8;
-
-/// However often the same fails, chance stays thinkable: so often in a row.
-const MOST_BY_CHANCE: f64 = 3.0;
 
 /// Something that can be to blame for a failure of an action.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -30,25 +27,23 @@ pub(crate) enum Cause {
 
 /// What is believed of one action.
 #[derive(Debug, Clone)]
-pub struct ActionBelief {
-    /// Its name.
-    pub action: Symbol,
+pub(crate) struct ActionBelief {
     /// Whether the call ever did anything else than the action says.
-    pub has_failed: bool,
+    pub(crate) has_failed: bool,
     /// The type of each parameter, which covers what worked.
     covers: Vec<TypeId>,
     types: Vec<TypeBelief>,
     outcomes: Vec<Outcome>,
     blamed: BTreeMap<Cause, f64>,
+    /// The logarithmic odds that each literal is needed, without any blame.
     literals: BTreeMap<LiftedAtom, f64>,
 }
 
 impl ActionBelief {
     /// What observations say of a learned action. In time of the failures, times the types of the hierarchy.
-    pub fn new(schema: &ActionSchema, observed: &Observations, hierarchy: &Hierarchy) -> Self {
+    pub(crate) fn new(schema: &ActionSchema, observed: &Observations, hierarchy: &Hierarchy) -> Self {
         let outcomes = outcomes(schema, observed, hierarchy);
         let mut belief = Self {
-            action: schema.name.clone(),
             has_failed: outcomes.iter().any(|outcome| !outcome.worked),
             covers: schema.parameters.iter().map(|parameter| parameter.ty).collect(),
             types: Vec::new(),
@@ -85,15 +80,17 @@ impl ActionBelief {
         self.types = seen.iter().map(|seen| TypeBelief::new(hierarchy, seen)).collect();
     }
 
-    /// What may be to blame where these types are used and these atoms do not hold, with its odds.
-    pub(crate) fn causes(
+    /// What may be to blame where these types are used and these atoms do not hold, with its odds; without the blame that is
+    /// its `own`.
+    fn causes(
         &self,
         hierarchy: &Hierarchy,
         types: &[Option<TypeId>],
         missing: impl IntoIterator<Item = LiftedAtom>,
+        own: &BTreeMap<Cause, f64>,
     ) -> Vec<(Cause, f64)> {
-        let blamed = |cause: &Cause| CHANCE.powf(-self.blamed.get(cause).copied().unwrap_or_default());
         let mut causes = Vec::new();
+        let share = |shares: &BTreeMap<Cause, f64>, cause: &Cause| shares.get(cause).copied().unwrap_or_default();
         for (at, ty) in types.iter().enumerate().filter_map(|(at, ty)| Some((at, (*ty)?))) {
             if !self.is_settled(hierarchy, at, ty) {
                 let mut accepted = self.types[at].accepts(ty);
@@ -101,19 +98,36 @@ impl ActionBelief {
                     // What was generalized covers what is likely; beyond it there is imagination.
                     accepted /= 2.0;
                 }
-                causes.push((Cause::Type(at, ty), (1.0 - accepted) / accepted));
+                let (cause, rejected) = (Cause::Type(at, ty), (1.0 - accepted) / accepted);
+                let without_own = odds(rejected.ln() + share(own, &cause) * CHANCE.ln());
+                causes.push((cause, without_own));
             }
         }
+        let blamed = |cause: &Cause| (share(own, cause) - share(&self.blamed, cause)) * CHANCE.ln();
         if self.has_failed {
             for pair in pairs(types) {
-                let (odds, cause) = (pair_odds(&pair, &self.outcomes), Cause::Together(pair));
-                causes.push((cause.clone(), odds * blamed(&cause)));
+                let (before, cause) = (pair_odds(&pair, &self.outcomes), Cause::Together(pair));
+                causes.push((cause.clone(), odds(before + blamed(&cause))));
             }
         }
         for atom in missing {
-            let odds = self.literals.get(&atom).copied().unwrap_or_default();
+            let Some(before) = self.literals.get(&atom) else { continue };
             let cause = Cause::Missing(atom);
-            causes.push((cause.clone(), odds * blamed(&cause)));
+            causes.push((cause.clone(), odds(before + blamed(&cause))));
+        }
+        causes
+    }
+
+    /// What speaks against a call of these types where these atoms do not hold, with its odds.
+    pub(crate) fn against(
+        &self,
+        hierarchy: &Hierarchy,
+        types: &[Option<TypeId>],
+        missing: impl IntoIterator<Item = LiftedAtom>,
+    ) -> Vec<(Cause, f64)> {
+        let mut causes = self.causes(hierarchy, types, missing, &BTreeMap::new());
+        if self.has_failed {
+            causes.push((Cause::Chance, CHANCE / (1.0 - CHANCE)));
         }
         causes
     }
@@ -131,14 +145,11 @@ impl ActionBelief {
     /// The blame of one failure, shared among what may have caused it, in proportion to the odds that all other
     /// observations give; `own` is the blame that it gave before, which is taken out of them.
     fn shares(&self, hierarchy: &Hierarchy, failure: &Outcome, own: &BTreeMap<Cause, f64>) -> BTreeMap<Cause, f64> {
-        let count = failure.count as f64;
-        let mut odds = self.causes(hierarchy, &failure.types, self.missing_in(failure));
-        for (cause, odds) in &mut odds {
-            *odds *= CHANCE.powf(own.get(cause).copied().unwrap_or_default());
-        }
-        odds.push((Cause::Chance, CHANCE.powf(count.min(MOST_BY_CHANCE))));
-        let sum: f64 = odds.iter().map(|(_, odds)| odds).sum();
-        odds.into_iter().map(|(cause, odds)| (cause, count * odds / sum)).collect()
+        let count = (failure.count as f64).min(MOST_ALIKE);
+        let mut causes = self.causes(hierarchy, &failure.types, self.missing_in(failure), own);
+        causes.push((Cause::Chance, CHANCE.powf(count)));
+        let sum: f64 = causes.iter().map(|(_, odds)| odds).sum();
+        causes.into_iter().map(|(cause, odds)| (cause, count * odds / sum)).collect()
     }
 
     /// The literals that held in a success and are known not to have held here.

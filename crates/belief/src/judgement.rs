@@ -5,7 +5,6 @@ use typelift_model::{
     ActionModel, ActionSchema, GroundAtom, GroundCall, Hierarchy, LearnedModel, LiftedAtom, State, Symbol, Term, TypeId,
 };
 
-use crate::CHANCE;
 use crate::action::{ActionBelief, Cause};
 
 /// A call whose fate is asked.
@@ -15,7 +14,7 @@ pub struct Question<'q> {
     pub call: &'q GroundCall,
     /// The type of each of its arguments; `None` for one that the hierarchy does not know.
     pub types: &'q [Option<TypeId>],
-    /// Where it is used; without a state every literal counts as true.
+    /// Where it is used; without a state every literal counts as true, as an unknown one does.
     pub state: Option<&'q State>,
 }
 
@@ -88,12 +87,10 @@ impl<'m> Belief<'m> {
         }
         let missing = belief.literals().filter_map(|atom| {
             let ground = ground(atom, &bound, question.call)?;
-            (!question.state?.atoms.contains(&ground)).then(|| atom.clone())
+            let state = question.state?;
+            (!state.holds(&ground) && !state.is_unknown(&ground)).then(|| atom.clone())
         });
-        let mut causes = belief.causes(&self.model.hierarchy, &types, missing);
-        if belief.has_failed {
-            causes.push((Cause::Chance, CHANCE / (1.0 - CHANCE)));
-        }
+        let causes = belief.against(&self.model.hierarchy, &types, missing);
         let p = causes.iter().map(|(_, odds)| 1.0 / (1.0 + odds)).product();
         let sum: f64 = causes.iter().map(|(_, odds)| odds).sum();
         let mut suspects: Vec<Suspect> = causes

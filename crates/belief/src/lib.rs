@@ -7,7 +7,7 @@
 //! number of rounds, so that the same observations always give the same belief.
 //!
 //! With successes alone it is Algorithm 1: what the generalized type covers is accepted. From the first failure on, the types
-//! of each place have a [signed belief](TypeBelief) over the hierarchy.
+//! of each place have a signed belief over the hierarchy.
 //!
 //! | file | what it holds |
 //! |---|---|
@@ -25,9 +25,18 @@ mod outcome;
 mod suspicion;
 mod types;
 
-pub use action::ActionBelief;
 pub use judgement::{Belief, Culprit, Judgement, Question, Suspect};
-pub use types::TypeBelief;
 
 /// How often something happens that nothing explains.
 pub(crate) const CHANCE: f64 = 0.02;
+
+/// However often the same is seen to fail, it may be chance: it counts as evidence so often at most.
+pub(crate) const MOST_ALIKE: f64 = 3.0;
+
+/// The odds of what has these logarithmic odds, which stay finite.
+pub(crate) fn odds(logarithm: f64) -> f64 {
+    logarithm.clamp(-MOST_CERTAIN, MOST_CERTAIN).exp()
+}
+
+/// Nothing is more certain, as logarithmic odds.
+const MOST_CERTAIN: f64 = 60.0;

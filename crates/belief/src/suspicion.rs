@@ -21,7 +21,7 @@ const PAIR: f64 = 0.06;
 /// Two parameters and the types there.
 pub(crate) type Pair = ((usize, TypeId), (usize, TypeId));
 
-/// The odds that each literal is needed, of those that held in some success.
+/// The logarithmic odds that each literal is needed, of those that held in some success.
 pub(crate) fn literal_odds(schema: &ActionSchema, outcomes: &[Outcome]) -> BTreeMap<LiftedAtom, f64> {
     let worked = || outcomes.iter().filter(|outcome| outcome.worked);
     let atoms: BTreeSet<&LiftedAtom> = worked().flat_map(|outcome| &outcome.held).collect();
@@ -37,9 +37,9 @@ pub(crate) fn literal_odds(schema: &ActionSchema, outcomes: &[Outcome]) -> BTree
         let count = |held: bool| -> f64 {
             told().filter(|outcome| outcome.held.contains(atom) == held).map(|outcome| outcome.count as f64).sum()
         };
-        prior * HOLDS_ANYWAY.powf(-count(true)) * CHANCE.powf(count(false))
+        prior.ln() - count(true) * HOLDS_ANYWAY.ln() + count(false) * CHANCE.ln()
     };
-    atoms.into_iter().map(|atom| (atom.clone(), odds(atom).clamp(1e-12, 1e12))).collect()
+    atoms.into_iter().map(|atom| (atom.clone(), odds(atom))).collect()
 }
 
 /// Every pair of types of an outcome.
@@ -52,12 +52,12 @@ pub(crate) fn pairs(types: &[Option<TypeId>]) -> Vec<Pair> {
     pairs
 }
 
-/// The odds that a pair does not go together: small, and next to nothing once it worked.
+/// The logarithmic odds that a pair does not go together: small, and next to nothing once it worked.
 pub(crate) fn pair_odds(pair: &Pair, outcomes: &[Outcome]) -> f64 {
     let has = |outcome: &&Outcome| {
         let at = |(at, ty): (usize, TypeId)| outcome.types.get(at).copied().flatten() == Some(ty);
         outcome.worked && at(pair.0) && at(pair.1)
     };
     let worked: u64 = outcomes.iter().filter(has).map(|outcome| outcome.count).sum();
-    PAIR * CHANCE.powf(worked.min(6) as f64)
+    PAIR.ln() + worked as f64 * CHANCE.ln()
 }

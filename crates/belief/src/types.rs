@@ -10,8 +10,7 @@ use typelift_model::{Hierarchy, TypeId};
 
 use crate::CHANCE;
 
-/// How often a type is accepted where its parent is not, or the other way round. Over WordNet with the abilities of things
-/// anything from 0.01 to 0.1 predicts as well.
+/// How often a type is accepted where its parent is not, or the other way round.
 const FLIP: f64 = 0.05;
 
 /// How likely the root is accepted: most things do not fit most places.
@@ -30,14 +29,15 @@ pub(crate) struct Seen {
 impl Seen {
     /// How likely the evidence is if the type is rejected, and if it is accepted.
     fn likelihood(self) -> [f64; 2] {
-        let (worked, blamed) = (CHANCE.powf(self.worked), CHANCE.powf(self.blamed));
-        [worked.max(LEAST), blamed.max(LEAST)]
+        // Of many of both only by how much there are more of one.
+        let fewer = self.worked.min(self.blamed);
+        [CHANCE.powf(self.worked - fewer).max(LEAST), CHANCE.powf(self.blamed - fewer).max(LEAST)]
     }
 }
 
 /// The chance that each type is accepted.
 #[derive(Debug, Clone, PartialEq)]
-pub struct TypeBelief {
+pub(crate) struct TypeBelief {
     accepted: BTreeMap<TypeId, f64>,
 }
 
@@ -73,7 +73,7 @@ impl TypeBelief {
     }
 
     /// The chance that a type of that hierarchy is accepted; next to none for another.
-    pub fn accepts(&self, ty: TypeId) -> f64 {
+    pub(crate) fn accepts(&self, ty: TypeId) -> f64 {
         self.accepted.get(&ty).copied().unwrap_or(LEAST)
     }
 }

@@ -86,6 +86,18 @@ fn a_type_that_works_with_another_tool_is_cleared_and_the_pair_is_left() {
 }
 
 #[test]
+fn what_was_seen_very_often_is_no_less_certain() {
+    let refused = vec![("saw", "bone", true, false); 40];
+    let worked = vec![("saw", "oak", true, true); 40];
+    let folder = model(&[&WORKED[..], &worked, &refused, &[("saw", "oak", true, false)]].concat());
+    let (bone, first) = asked(&folder, "cut(saw, bone)");
+    assert!(bone < 5, "{bone}");
+    assert_eq!(first, "type bone");
+    // Once in forty times it failed.
+    assert!(asked(&folder, "cut(saw, oak)").0 > 90);
+}
+
+#[test]
 fn a_literal_that_no_success_did_without_is_blamed_where_the_types_are_cleared() {
     let folder = model(&[&WORKED[..], &[("saw", "oak", false, false), ("saw", "pine", false, false)]].concat());
     folder.write(
