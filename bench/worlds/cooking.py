@@ -1,0 +1,60 @@
+#!/usr/bin/env python3
+"""Games of cooking that nobody here wrote: learned from TextWorld's own walkthroughs, played with foods never seen.
+
+    pip install textworld
+    cargo build --release
+    python bench/worlds/cooking.py target/release/typelift
+
+Learns from eight walkthroughs of the training split, and from four of them, and has typelift play 30 other games until the meal is
+eaten, ten each with foods of the training, validation and test split; then once more with the same memory. Printed is how
+many games are won, and how many steps failed on the way: refused by the game, or not as expected. Settings and seeds stand in
+`cooking.json`.
+"""
+
+import json
+from pathlib import Path
+
+from cooking_game import CookingGame
+from measuring import Measure, Setting, Task, explain, options, table
+from serving import record
+
+HERE = Path(__file__).parent
+
+
+def main() -> None:
+    arguments = options(__doc__, "target/worlds/cooking").parse_args()
+    games = json.loads((HERE / "cooking.json").read_text())
+    count = {"demonstrations": 4, "unseen": 1} if arguments.quick else {"demonstrations": 8, "unseen": 10}
+    kept = arguments.folder.parent / "cooking-games"
+    game = CookingGame(kept)
+
+    demonstrations = []
+    for seed in games["demonstrations"]["seeds"][: count["demonstrations"]]:
+        game.reset(seed, {**games["settings"], "split": games["demonstrations"]["split"]})
+        trace = arguments.folder / "demonstrations" / f"game_{seed}.jsonl"
+        if not trace.exists():
+            trace.parent.mkdir(parents=True, exist_ok=True)
+            record(game, trace, game.goal(), game.walkthrough())
+        demonstrations.append(trace)
+
+    tasks = []
+    for split, seeds in games["unseen"].items():
+        for seed in seeds[: count["unseen"]]:
+            scenario = {**games["settings"], "split": split}
+            game.reset(seed, scenario)
+            tasks.append(Task(f"{split}_{seed}", split, game.goal(), scenario, seed))
+
+    measure = Measure(arguments, [str(HERE / "cooking_game.py"), str(kept)], game.types)
+    settings = [
+        Setting(f"{number} demonstrations{', imagining' if imagining else ''}", demonstrations[:number], imagining)
+        for number in ([4] if arguments.quick else [8, 4])
+        for imagining in ((), ("--imagine",))
+    ]
+    results = measure.run(settings, tasks)
+    if arguments.explain:
+        print("\n".join(explain(results)))
+    print(table(results, list(games["unseen"])))
+
+
+if __name__ == "__main__":
+    main()
