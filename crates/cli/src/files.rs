@@ -4,6 +4,8 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use typelift::model::{ActionModel, Hierarchy, LearnedModel, ModelFileError, ParseConfig, Symbol, Task, did_you_mean};
+use typelift::pddl::misfits;
+use typelift::words::count;
 use typelift::world::{
     DomainFile, FileError, ParseError, ParseErrorKind, Parser, TaskError, TaskFile, is_pddl, model_problem_from_text,
     read_text, read_types,
@@ -111,7 +113,13 @@ impl ModelInput {
     pub(crate) fn task_from_text(&self, path: &Path, text: &str, quiet: bool) -> Result<TaskInput, Failure> {
         match self {
             Self::Given(domain) if is_pddl(text) => {
-                Ok(TaskInput::Problem(Box::new(domain.problem_from_text(path, text)?)))
+                let problem = domain.stated_problem(path, text)?;
+                let compiled = domain.compile(path, text, &problem)?;
+                if !quiet {
+                    let misfits = misfits(&problem, &domain.domain);
+                    warn_of_misfits(path, &misfits.iter().map(ToString::to_string).collect::<Vec<_>>());
+                }
+                Ok(TaskInput::Problem(Box::new(compiled)))
             }
             Self::Learned(learned) if is_pddl(text) => {
                 let problem = model_problem_from_text(&learned.model, learned.domain.as_ref(), path, text)?;
@@ -187,6 +195,16 @@ pub(crate) fn warn<'w>(mut warnings: impl Iterator<Item = &'w FileError>) {
     let more = warnings.count();
     if more > 0 {
         anstream::eprintln!("{WARNING}warning{WARNING:#}: {more} more of this kind");
+    }
+}
+
+/// Warns of atoms of a problem that no action which declares the same types as their predicate ever meets.
+pub(crate) fn warn_of_misfits(problem: &Path, misfits: &[String]) {
+    if let Some(first) = misfits.first() {
+        let (problem, several) = (problem.display(), count(misfits.len() as u64, "atom"));
+        anstream::eprintln!(
+            "{WARNING}warning{WARNING:#}: {problem}: {several} not of the types that the predicate declares: {first}"
+        );
     }
 }
 

@@ -50,9 +50,24 @@ impl DomainFile {
     /// # Errors
     /// As for [`read_problem`](Self::read_problem).
     pub fn problem_from_text(&self, name: &Path, text: &str) -> Result<(ActionModel, Task), FileError> {
-        let problem = read_problem(text, &self.domain).map_err(|error| FileError::from_pddl(name, text, error))?;
+        self.compile(name, text, &self.stated_problem(name, text)?)
+    }
+
+    /// Reads the text of a problem, as it is written; errors call it `name`.
+    ///
+    /// # Errors
+    /// [`FileError`] if it is not one.
+    pub fn stated_problem(&self, name: &Path, text: &str) -> Result<Problem, FileError> {
+        read_problem(text, &self.domain).map_err(|error| FileError::from_pddl(name, text, error))
+    }
+
+    /// The model for a problem that was read from this text, and its task.
+    ///
+    /// # Errors
+    /// [`FileError`] if it has no task.
+    pub fn compile(&self, name: &Path, text: &str, problem: &Problem) -> Result<(ActionModel, Task), FileError> {
         let mut model = self.model.clone();
-        let task = compile_problem(&problem, &mut model).map_err(|error| match error.part.is_of_problem() {
+        let task = compile_problem(problem, &mut model).map_err(|error| match error.part.is_of_problem() {
             true => located(name, text, &error),
             false => located(&self.path, &self.text, &error),
         })?;

@@ -17,6 +17,7 @@ use typelift::world::FileError;
 use super::domains::Domains;
 use crate::exit::Exit;
 use crate::failure::Failure;
+use crate::files::warn_of_misfits;
 use crate::style::{BAD, WARNING};
 
 /// What a file is, as far as its beginning tells.
@@ -103,11 +104,8 @@ pub(super) fn check(files: &[PathBuf], json: bool, quiet: bool) -> Result<Exit, 
         match content {
             Ok(content) => {
                 writeln!(out, "{shown}: {}{}", name.unwrap_or_default(), summary(&content))?;
-                if let (Some(first), false) = (content.misfits.first(), quiet) {
-                    let several = count(content.misfits.len() as u64, "atom");
-                    anstream::eprintln!(
-                        "{WARNING}warning{WARNING:#}: {shown}: {several} not of the types that the predicate declares: {first}"
-                    );
+                if !quiet {
+                    warn_of_misfits(file, &content.misfits);
                 }
                 if !content.undeclared.is_empty() && !quiet {
                     let names = content.undeclared.join(" ");

@@ -130,7 +130,11 @@ fn what_is_said_of_things_of_other_types() {
          warning: p.pddl: 2 atoms not of the types that the predicate declares: wet(l)\n"
     );
     assert!(folder.run("pddl check domain.pddl p.pddl --json").out.contains(r#""misfits":["wet(l)","dry(l)"]"#));
-    folder.run("plan domain.pddl p.pddl -o plan").succeeds();
+    let planned = folder.run("plan domain.pddl p.pddl -o plan");
+    planned.succeeds();
+    let warning = "warning: p.pddl: 2 atoms not of the types that the predicate declares: wet(l)\n";
+    assert!(planned.err.starts_with(warning), "{planned}");
+    assert!(!folder.run("plan domain.pddl p.pddl -o plan -q").err.contains("warning"));
     folder.run("validate domain.pddl p.pddl plan").succeeds();
     folder.write("p.pddl", problem("dry m"));
     let none = folder.run("plan domain.pddl p.pddl");
