@@ -12,6 +12,10 @@ use crate::{CHANCE, MOST_ALIKE, odds};
 /// How often the blame is shared anew.
 const ROUNDS: usize = 8;
 
+/// The least odds that a type is rejected where only others worked that it has nothing in common with: the hierarchy says
+/// that it is another kind of thing, and nothing that was seen says otherwise.
+const FOREIGN: f64 = (1.0 - CHANCE) / CHANCE;
+
 /// Something that can be to blame for a failure of an action.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Cause {
@@ -32,6 +36,9 @@ pub(crate) struct ActionBelief {
     pub(crate) has_failed: bool,
     /// The type of each parameter, which covers what worked.
     covers: Vec<TypeId>,
+    /// For each parameter the lowest type that covers all that worked there; none if that is the top.
+    worked_below: Vec<Option<TypeId>>,
+    top: TypeId,
     types: Vec<TypeBelief>,
     outcomes: Vec<Outcome>,
     blamed: BTreeMap<Cause, f64>,
@@ -46,6 +53,8 @@ impl ActionBelief {
         let mut belief = Self {
             has_failed: outcomes.iter().any(|outcome| !outcome.worked),
             covers: schema.parameters.iter().map(|parameter| parameter.ty).collect(),
+            worked_below: worked_below(&worked_at(&outcomes, schema.parameters.len()), hierarchy),
+            top: hierarchy.top(),
             types: Vec::new(),
             literals: literal_odds(schema, &outcomes),
             blamed: BTreeMap::new(),
@@ -98,9 +107,10 @@ impl ActionBelief {
                     // What was generalized covers what is likely; beyond it there is imagination.
                     accepted /= 2.0;
                 }
-                let (cause, rejected) = (Cause::Type(at, ty), (1.0 - accepted) / accepted);
-                let without_own = odds(rejected.ln() + share(own, &cause) * CHANCE.ln());
-                causes.push((cause, without_own));
+                let cause = Cause::Type(at, ty);
+                let rejected = ((1.0 - accepted) / accepted).ln() + share(own, &cause) * CHANCE.ln();
+                let least = if self.is_foreign(hierarchy, at, ty) { FOREIGN.ln() } else { f64::NEG_INFINITY };
+                causes.push((cause, odds(rejected.max(least))));
             }
         }
         let blamed = |cause: &Cause| (share(own, cause) - share(&self.blamed, cause)) * CHANCE.ln();
@@ -142,6 +152,13 @@ impl ActionBelief {
         !self.has_failed && hierarchy.is_a(ty, self.covers[at])
     }
 
+    /// Whether a type has nothing in common, below the top, with all that worked in a place.
+    fn is_foreign(&self, hierarchy: &Hierarchy, at: usize, ty: TypeId) -> bool {
+        let shares_nothing =
+            |worked| !hierarchy.is_a(worked, ty) && hierarchy.is_a(self.top, hierarchy.lca(worked, ty));
+        self.worked_below[at].is_some_and(shares_nothing)
+    }
+
     /// The blame of one failure, shared among what may have caused it, in proportion to the odds that all other
     /// observations give; `own` is the blame that it gave before, which is taken out of them.
     fn shares(&self, hierarchy: &Hierarchy, failure: &Outcome, own: &BTreeMap<Cause, f64>) -> BTreeMap<Cause, f64> {
@@ -157,4 +174,10 @@ impl ActionBelief {
         let missing = |atom: &&LiftedAtom| outcome.tells_of(atom) && !outcome.held.contains(*atom);
         self.literals.keys().filter(missing).cloned().collect()
     }
+}
+
+fn worked_below(worked: &[BTreeMap<TypeId, f64>], hierarchy: &Hierarchy) -> Vec<Option<TypeId>> {
+    let top = hierarchy.top();
+    let covering = |worked: &BTreeMap<TypeId, f64>| worked.keys().copied().reduce(|a, b| hierarchy.lca(a, b));
+    worked.iter().map(|worked| covering(worked).filter(|&ty| !hierarchy.is_a(top, ty))).collect()
 }

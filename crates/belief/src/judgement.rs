@@ -14,7 +14,8 @@ pub struct Question<'q> {
     pub call: &'q GroundCall,
     /// The type of each of its arguments; `None` for one that the hierarchy does not know.
     pub types: &'q [Option<TypeId>],
-    /// Where it is used; without a state every literal counts as true, as an unknown one does.
+    /// Where it is used; without a state every literal counts as true, as an unknown one does, and one of an object that is
+    /// not there.
     pub state: Option<&'q State>,
 }
 
@@ -88,7 +89,9 @@ impl<'m> Belief<'m> {
         let missing = belief.literals().filter_map(|atom| {
             let ground = ground(atom, &bound, question.call)?;
             let state = question.state?;
-            (!state.holds(&ground) && !state.is_unknown(&ground)).then(|| atom.clone())
+            let is_there = |arg: &Symbol| state.objects.contains_key(arg) || self.model.constants.contains_key(arg);
+            let tells = ground.args.iter().all(is_there) && !state.is_unknown(&ground);
+            (tells && !state.holds(&ground)).then(|| atom.clone())
         });
         let causes = belief.against(&self.model.hierarchy, &types, missing);
         let p = causes.iter().map(|(_, odds)| 1.0 / (1.0 + odds)).product();

@@ -7,7 +7,8 @@
 //! number of rounds, so that the same observations always give the same belief.
 //!
 //! With successes alone it is Algorithm 1: what the generalized type covers is accepted. From the first failure on, the types
-//! of each place have a signed belief over the hierarchy.
+//! of each place have a signed belief over the hierarchy. A type that has nothing in common, below the top, with all that
+//! worked in a place is next to impossible there in both cases: the hierarchy keeps them apart, until one works.
 //!
 //! | file | what it holds |
 //! |---|---|

@@ -9,7 +9,7 @@ use typelift::model::{
     ActionModel, GroundAtom, GroundCall, Hierarchy, LearnedModel, State, Symbol, TypeId, did_you_mean, json_message,
 };
 use typelift::words::{CallQuestion, WhyView, count, why_lines};
-use typelift::world::{FileError, Parser, read_text};
+use typelift::world::{FileError, Parser, TraceReader, is_trace, read_text, trace_from};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -36,7 +36,7 @@ pub(crate) struct Why {
     /// Calls, as `PICK(agent_1, counter_3, lettuce_1)`
     #[arg(value_name = "CALL", required_unless_present = "calls")]
     call: Vec<String>,
-    /// Ask in the state of this task
+    /// Ask in the state of this task, or in the last one of this trace
     #[arg(long, value_name = "FILE")]
     task: Option<PathBuf>,
     /// Ask about the calls of a file of JSON Lines, each with types or a state
@@ -46,6 +46,9 @@ pub(crate) struct Why {
     #[arg(long)]
     json: bool,
 }
+
+/// Objects that are named in place of one that is not there.
+const MOST_NAMED: usize = 5;
 
 /// A call with what is said of its objects.
 struct Asked {
@@ -69,8 +72,13 @@ impl Why {
             let judgement = belief.judge(&question);
             let view = WhyView::new(call, judgement);
             all_known &= !view.unknown;
-            if view.unknown && !quiet {
-                say_what_is_unknown(&view.call, &types, &learned(&input, &self.model)?.model);
+            if !quiet {
+                let model = &learned(&input, &self.model)?.model;
+                match &state {
+                    _ if view.unknown => say_what_is_unknown(&view.call, &types, model),
+                    Some(state) => say_what_is_not_there(&view.call, &types, state, model),
+                    None => {}
+                }
             }
             if self.json {
                 writeln!(out, "{}", serde_json::to_string(&view).unwrap_or_default())?;
@@ -130,6 +138,26 @@ fn say_what_is_unknown(call: &GroundCall, types: &[Option<TypeId>], model: &Acti
     anstream::eprintln!("{HINT}hint{HINT:#}: {hint}");
 }
 
+/// Says of which arguments of a call nothing is known, since the state does not have them: they were taken for things of
+/// the types of their names.
+fn say_what_is_not_there(call: &GroundCall, types: &[Option<TypeId>], state: &State, model: &ActionModel) {
+    let hierarchy = &model.hierarchy;
+    let missing = call
+        .args
+        .iter()
+        .zip(types)
+        .filter(|(arg, _)| !state.objects.contains_key(*arg) && !model.constants.contains_key(*arg));
+    for (arg, ty) in missing.filter_map(|(arg, ty)| Some((arg, (*ty)?))) {
+        let of_type = state.objects.iter().filter(|(_, other)| hierarchy.is_a(**other, ty));
+        let names: Vec<&str> = of_type.map(|(name, _)| name.as_str()).take(MOST_NAMED).collect();
+        let ty = hierarchy.name(ty);
+        let there = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
+        anstream::eprintln!(
+            "{HINT}hint{HINT:#}: `{arg}` is not in the state, so nothing that holds of it is known; of type {ty} there: {there}"
+        );
+    }
+}
+
 /// The model with its evidence: a domain has none.
 fn learned<'m>(input: &'m ModelInput, path: &Path) -> Result<&'m LearnedModel, Failure> {
     match input {
@@ -142,11 +170,17 @@ fn learned<'m>(input: &'m ModelInput, path: &Path) -> Result<&'m LearnedModel, F
 }
 
 fn state_of(input: &ModelInput, learned: &LearnedModel, task: &Path, quiet: bool) -> Result<State, Failure> {
-    match input.read_task(task, quiet)? {
+    let text = read_text(task)?;
+    let mut parser =
+        Parser::new(learned.model.hierarchy.clone(), learned.parse.clone()).knowing(&learned.model.predicates);
+    if is_trace(&text) {
+        let read = TraceReader::new(task, text.as_bytes()).and_then(|reader| trace_from(task, reader, &mut parser))?;
+        // A trace that was read has a state.
+        return Ok(read.states.into_iter().next_back().unwrap_or_default());
+    }
+    match input.task_from_text(task, &text, quiet)? {
         TaskInput::Problem(problem) => Ok(problem.1.init),
         TaskInput::File(file) => {
-            let mut parser =
-                Parser::new(learned.model.hierarchy.clone(), learned.parse.clone()).knowing(&learned.model.predicates);
             let task_read = file.task(&mut parser, &learned.model.predicates);
             task_read.map(|task| task.init).map_err(|error| Failure::from(error.in_file(task, &parser)))
         }

@@ -64,6 +64,9 @@ pub fn why_lines(view: &WhyView) -> Vec<Text> {
     let role = if view.p < 0.5 { Role::Bad } else { Role::Good };
     let head = Text::new().plain(format!("{}: ", view.call));
     let mut lines = vec![head.with(role, format!("works with {:.2}", view.p)).plain(format!(", by {action}"))];
+    if !view.suspects.is_empty() {
+        lines.push(Text::new().with(Role::Aside, "  of what speaks against it:"));
+    }
     let against = view.suspects.iter().map(|suspect| {
         let what = match suspect.kind {
             Culprit::Type => format!("{} may not do there", suspect.what),

@@ -51,7 +51,7 @@ pub use snapshot::{Entity, Relation, Scene, Snapshot, Value};
 pub use source::{source_of, source_of_file};
 pub use task_file::{TASK_FORMAT, TaskError, TaskFile, read_task, write_task};
 pub use text_file::{read_text, remove_left_behind, text_from, write_file};
-pub use trace_file::{read_trace, trace_from};
+pub use trace_file::{is_trace, read_trace, trace_from};
 pub use trace_line::{TRACE_FORMAT, TraceLine};
 pub use trace_reader::{TraceItem, TraceReader};
 pub use trace_writer::TraceWriter;

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use typelift_model::{GroundAtom, HashMap, State, Symbol, SymbolPool, TypeId, check_name, did_you_mean};
 
-use crate::{FileError, Parser, Scene, Trace, TraceAction, TraceHeader, TraceItem, TraceReader};
+use crate::{FileError, Parser, Scene, TRACE_FORMAT, Trace, TraceAction, TraceHeader, TraceItem, TraceReader, json};
 
 /// Reads a trace file.
 ///
@@ -15,6 +15,12 @@ use crate::{FileError, Parser, Scene, Trace, TraceAction, TraceHeader, TraceItem
 /// entity whose type changes, an action on an entity that is not there.
 pub fn read_trace(path: &Path, parser: &mut Parser) -> Result<Trace, FileError> {
     trace_from(path, TraceReader::open(path)?, parser)
+}
+
+/// Whether a text begins as a trace does: with its format.
+pub fn is_trace(text: &str) -> bool {
+    let first = text.lines().next().unwrap_or_default();
+    json::format(first).is_ok_and(|found| found.as_deref() == Some(TRACE_FORMAT))
 }
 
 /// The file's name without its folders.

@@ -159,3 +159,55 @@ fn what_is_unknown_is_said() {
     let robot = said("cut(robot_1, oak)");
     assert!(robot.contains("of which type `robot_1` is") && robot.contains("--task"), "{robot}");
 }
+
+/// Tools and stuff are things, and nothing more: neither may take the place of the other, whatever failed elsewhere.
+#[test]
+fn what_the_types_keep_apart_is_next_to_nothing() {
+    for traces in [&WORKED[..], &[&WORKED[..], &[("saw", "bone", true, false)]].concat()] {
+        let folder = model(traces);
+        for swapped in ["cut(oak, saw)", "cut(saw, axe)", "cut(pine, oak)"] {
+            assert!(asked(&folder, swapped).0 <= 2, "{swapped}: {}", why(&folder, swapped));
+        }
+        assert!(asked(&folder, "cut(tool, oak)").0 > 30, "a saw is a tool");
+    }
+    // It worked after all.
+    let folder = model(&[&WORKED[..], &[("oak", "pine", true, true)]].concat());
+    assert!(asked(&folder, "cut(oak, pine)").0 > 90);
+}
+
+#[test]
+fn what_the_percentages_are_of_is_said() {
+    let folder = model(&[&WORKED[..], &[("saw", "bone", true, false)]].concat());
+    let said = folder.run("why model.json 'cut(saw, bone)'");
+    let lines: Vec<&str> = said.out.lines().collect();
+    assert!(lines[0].starts_with("cut(saw, bone): works with "), "{said}");
+    assert_eq!(lines[1], "  of what speaks against it:");
+    assert!(lines[2].ends_with(" %  bone may not do there"), "{said}");
+    let settled = model(&WORKED).run("why model.json 'cut(saw, oak)'");
+    assert_eq!(settled.out.lines().count(), 1, "nothing does: {settled}");
+}
+
+#[test]
+fn a_trace_is_asked_in_its_last_state() {
+    let folder = model(&WORKED);
+    // It was long before, and is short now.
+    let ended = folder.run("why model.json 'cut(tool_1, piece_0)' --task demos/0.jsonl --json");
+    ended.succeeds();
+    let first = serde_json::from_str::<serde_json::Value>(&ended.out).expect("JSON")["suspects"][0]["what"].clone();
+    assert_eq!(first, "long(piece_0)", "{ended}");
+}
+
+#[test]
+fn of_what_is_not_in_the_state_nothing_is_known() {
+    let folder = model(&WORKED);
+    let ended = folder.run("why model.json 'cut(saw, oak)' --task demos/0.jsonl");
+    ended.succeeds();
+    assert!(ended.out.contains("works with 1.00"), "no literal is held against it: {ended}");
+    assert_eq!(
+        ended.err,
+        "hint: `saw` is not in the state, so nothing that holds of it is known; of type saw there: tool_1\n\
+         hint: `oak` is not in the state, so nothing that holds of it is known; of type oak there: piece_0\n"
+    );
+    let none = folder.run("why model.json 'cut(tool_1, pine)' --task demos/0.jsonl");
+    assert!(none.err.ends_with("; of type pine there: none\n"), "{none}");
+}
