@@ -3,16 +3,18 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use typelift::model::{GroundAtom, GroundCall, ParseConfig, Symbol};
+use typelift::model::{GroundAtom, GroundCall, Hierarchy, ParseConfig, Symbol};
 use typelift::words::{InspectionView, inspection_lines};
-use typelift::world::{InspectOptions, Reset, World, inspect, read_hierarchy, read_task};
+use typelift::world::{BrokenOff, InspectOptions, Inspection, Reset, World, inspect, read_task, read_types};
 
 use crate::environment::{Timeouts, start};
 use crate::exit::Exit;
 use crate::failure::Failure;
+use crate::files::warn;
 use crate::limits::Interrupt;
 use crate::quantities::parse_whole;
 use crate::style::painted;
+use crate::waiting::Waiting;
 
 /// Try an environment, and say what would hurt learning
 #[derive(Debug, clap::Args)]
@@ -24,7 +26,9 @@ use crate::style::painted;
 The environment is reset twice alike, if it can be reset, and observed several
 times in a row; then the actions of --act are carried out. What is compared is
 what learning sees: flicker, states that have not settled, entities that come
-and go, lists where an id is meant, words with too many values, numbers with few.
+and go, keys that are left out at times, lists where an id is meant, words with
+too many values or that differ in case only, numbers with few. If it ends
+halfway, or is stopped, what was found so far is said.
 
 Exit codes: 0 nothing hurts, 12 something hurts, 31 bad input, 35 the
 environment failed, 36 wrong usage. What only may hurt leaves the code as it is.")]
@@ -61,9 +65,13 @@ fn parse_call(text: &str) -> Result<GroundCall, String> {
 }
 
 impl CheckEnv {
-    pub(crate) fn run(&self) -> Result<Exit, Failure> {
+    pub(crate) fn run(&self, quiet: bool) -> Result<Exit, Failure> {
         let interrupt = Interrupt::install()?;
-        let hierarchy = self.types.as_deref().map(read_hierarchy).transpose()?;
+        let types = self.types.as_deref().map(read_types).transpose()?;
+        let hierarchy = types.as_ref().map(|types| types.extend(&Hierarchy::default())).transpose()?;
+        if let (Some(types), false) = (&types, quiet) {
+            warn(types.warnings().iter());
+        }
         let task = self.task.as_deref().map(read_task).transpose()?.unwrap_or_default();
         let options = InspectOptions {
             hierarchy,
@@ -75,23 +83,31 @@ impl CheckEnv {
             calls: self.act.clone(),
         };
         interrupt.heeded();
-        let mut world = start(&self.command, &self.timeouts, &interrupt)?;
-        let inspected = inspect(&mut world, &options).and_then(|inspection| world.close().map(|()| inspection));
-        if inspected.is_err() && interrupt.explains_failure() {
+        let waiting = Waiting::new(quiet).for_one_thing();
+        let mut world = start(&self.command, &self.timeouts, &interrupt, waiting)?;
+        let (inspection, ended) = match inspect(&mut world, &options) {
+            Ok(inspection) => (inspection, world.close()),
+            Err(BrokenOff { error, found }) => (*found, Err(error)),
+        };
+        self.print(&world.name(), world.can_reset(), &inspection)?;
+        if ended.is_err() && interrupt.explains_failure() {
             return Ok(Exit::Interrupted);
         }
-        let inspection = inspected?;
-        let (name, can_reset) = (world.name(), world.can_reset());
+        ended?;
+        let hurts = inspection.findings.iter().any(|finding| finding.problem.is_certain());
+        Ok(if hurts { Exit::NotAchieved } else { Exit::Success })
+    }
+
+    fn print(&self, name: &str, can_reset: bool, inspection: &Inspection) -> Result<(), Failure> {
         let mut out = anstream::stdout().lock();
         if self.json {
-            let view = InspectionView::of(&name, can_reset, &inspection);
+            let view = InspectionView::of(name, can_reset, inspection);
             writeln!(out, "{}", serde_json::to_string(&view).unwrap_or_default())?;
         } else {
-            for line in inspection_lines(&name, can_reset, &inspection) {
+            for line in inspection_lines(name, can_reset, inspection) {
                 writeln!(out, "{}", painted(&line))?;
             }
         }
-        let hurts = inspection.findings.iter().any(|finding| finding.problem.is_certain());
-        Ok(if hurts { Exit::NotAchieved } else { Exit::Success })
+        Ok(())
     }
 }

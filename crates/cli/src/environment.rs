@@ -6,10 +6,12 @@ use clap::ValueEnum;
 use typelift::bridge::{Bridge, Options};
 use typelift::world::WorldError;
 
+use crate::awaited::Awaited;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::limits::Interrupt;
 use crate::quantities::parse_duration;
+use crate::waiting::Waiting;
 
 /// How long to wait for an environment.
 #[derive(Debug, Clone, Default, clap::Args)]
@@ -52,14 +54,22 @@ impl Timeouts {
     }
 }
 
-/// Starts the environment that this command is. An interrupt ends it.
-pub(crate) fn start(command: &str, timeouts: &Timeouts, interrupt: &Interrupt) -> Result<Bridge, Failure> {
-    let stderr = |line: &str| anstream::eprintln!("{line}");
-    let bridge = Bridge::spawn_stoppable(command, timeouts.options(), stderr, |stopper| {
-        interrupt.on_raised(move || stopper.stop());
+/// Starts the environment that this command is; what is waited for stands in this line. An interrupt ends it.
+pub(crate) fn start(
+    command: &str,
+    timeouts: &Timeouts,
+    interrupt: &Interrupt,
+    waiting: Waiting,
+) -> Result<Awaited<Bridge>, Failure> {
+    let line = waiting.clone();
+    let stderr = move |said: &str| line.aside(|| anstream::eprintln!("{said}"));
+    let bridge = waiting.during("waiting for hello", || {
+        Bridge::spawn_stoppable(command, timeouts.options(), stderr, |stopper| {
+            interrupt.on_raised(move || stopper.stop());
+        })
     });
     match bridge {
-        Ok(bridge) => Ok(bridge),
+        Ok(bridge) => Ok(Awaited { waiting, world: bridge }),
         Err(_) if interrupt.explains_failure() => Err(Failure::new(Exit::Interrupted, "stopped")),
         Err(error) => Err(WorldError::from(error).into()),
     }

@@ -3,6 +3,7 @@
 //! One file, or one folder, a subcommand. Data goes to standard output, everything else to standard error. Every way to end has its
 //! exit code, in [`exit`].
 
+mod awaited;
 mod check_env;
 mod columns;
 mod confirm;
@@ -102,7 +103,7 @@ fn main() -> ExitCode {
         Command::Plan(plan) => plan.run(clock, quiet),
         Command::Export(export) => export.run(clock, quiet),
         Command::Run(run) => run.run(clock, quiet),
-        Command::CheckEnv(check_env) => check_env.run(),
+        Command::CheckEnv(check_env) => check_env.run(quiet),
         Command::Validate(validate) => validate.run(clock, quiet),
         Command::Pddl(pddl) => pddl.run(quiet),
         Command::Kitchen(kitchen) => kitchen.run(quiet),

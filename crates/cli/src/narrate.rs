@@ -29,13 +29,13 @@ pub(crate) struct Narrator {
     /// The time spent planning.
     pub(crate) planning: Duration,
     started: Option<Instant>,
-    /// Tells that planning takes its time.
+    /// Tells that planning, or the environment, takes its time.
     waiting: Waiting,
 }
 
 impl Narrator {
-    pub(crate) fn new(aloud: bool, events: Option<BufWriter<File>>) -> Self {
-        Self { aloud, events, waiting: Waiting::new(!aloud), ..Self::default() }
+    pub(crate) fn new(aloud: bool, events: Option<BufWriter<File>>, waiting: Waiting) -> Self {
+        Self { aloud, events, waiting, ..Self::default() }
     }
 
     /// The same budget, which is used up when an event cannot be written: nothing more is done of which nobody would know.

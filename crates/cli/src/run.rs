@@ -28,6 +28,7 @@ use crate::planning_options::PlanningOptions;
 use crate::quantities::parse_whole;
 use crate::remembered::{Remembered, is_task};
 use crate::style::{HEAD, HINT, WARNING, painted};
+use crate::waiting::Waiting;
 
 /// Expansions of one search, unless the user says otherwise: an agent that acts must not think for ever.
 const EXPANSIONS: u64 = 200_000;
@@ -170,7 +171,8 @@ impl Run {
         let Given { mut input, remembered, tasks } = self.read(quiet)?;
         let options = self.options(input.is_given())?;
         interrupt.heeded();
-        let world = self.open(&interrupt)?;
+        let waiting = Waiting::new(quiet || self.planning.json);
+        let world = self.open(&interrupt, &waiting)?;
         if self.restart && !world.can_reset() {
             return Err(Failure::bad_input(format!("--restart: {} cannot be reset", world.name()))
                 .with_hint("Without --restart it goes on from where it is."));
@@ -190,7 +192,7 @@ impl Run {
         if let Some(memory) = &memory {
             input = ModelInput::Learned(Box::new(memory.learned().clone()));
         }
-        let narrator = Narrator::new(!quiet && !self.planning.json, events);
+        let narrator = Narrator::new(!quiet && !self.planning.json, events, waiting);
         let (interrupt, experience, model) = (&interrupt, Experience::new(), Arc::new(input.model().clone()));
         let mut session = Session {
             clock,
@@ -341,10 +343,10 @@ impl Run {
         Ok(ToDo { path, what, reset })
     }
 
-    fn open(&self, interrupt: &Interrupt) -> Result<Box<dyn World>, Failure> {
+    fn open(&self, interrupt: &Interrupt, waiting: &Waiting) -> Result<Box<dyn World>, Failure> {
         Ok(match &self.env {
             None => Box::new(Kitchen::new()),
-            Some(command) => Box::new(start(command, &self.timeouts, interrupt)?),
+            Some(command) => Box::new(start(command, &self.timeouts, interrupt, waiting.clone())?),
         })
     }
 

@@ -14,17 +14,22 @@ const DELAY: Duration = Duration::from_secs(1);
 /// How often the line is drawn anew.
 const INTERVAL: Duration = Duration::from_millis(250);
 
-/// A line on standard error while something goes on; nothing if that is no terminal. Whoever prints meanwhile ends it first.
-/// A copy stands for the same line.
+/// A line on standard error while something goes on; nothing if that is no terminal. Whoever prints meanwhile ends it first,
+/// or prints [aside](Self::aside). A copy stands for the same line.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Waiting {
     is_shown: bool,
+    /// When all that goes on began, if it is waited for as one thing.
+    since: Option<Instant>,
     line: Arc<Mutex<Option<Line>>>,
 }
 
 /// A line that a thread draws.
 #[derive(Debug)]
 struct Line {
+    stage: String,
+    begun: Instant,
+    delay: Duration,
     /// The thread ends when this is dropped.
     over: Sender<()>,
     thread: JoinHandle<()>,
@@ -36,8 +41,13 @@ impl Waiting {
         Self { is_shown: !quiet && std::io::stderr().is_terminal(), ..Self::default() }
     }
 
+    /// What follows is one thing for whoever waits: once it takes its time, each stage of it is spoken of at once.
+    pub(crate) fn for_one_thing(self) -> Self {
+        Self { since: Some(Instant::now()), ..self }
+    }
+
     /// Does some work, which is spoken of if it takes its time.
-    pub(crate) fn during<T>(&self, stage: &'static str, work: impl FnOnce() -> T) -> T {
+    pub(crate) fn during<T>(&self, stage: &str, work: impl FnOnce() -> T) -> T {
         self.begin(stage);
         let done = work();
         self.end();
@@ -45,10 +55,11 @@ impl Waiting {
     }
 
     /// Something begins, and what went on before is over.
-    pub(crate) fn begin(&self, stage: &'static str) {
+    pub(crate) fn begin(&self, stage: &str) {
         self.end();
         if self.is_shown {
-            let line = Line::drawn_on(ProgressDrawTarget::stderr, stage, DELAY);
+            let delay = self.since.map_or(DELAY, |since| DELAY.saturating_sub(since.elapsed()));
+            let line = Line::drawn_on(ProgressDrawTarget::stderr, stage, Instant::now(), delay);
             *self.line.lock().unwrap_or_else(PoisonError::into_inner) = Some(line);
         }
     }
@@ -56,18 +67,33 @@ impl Waiting {
     /// It is over, and the line is erased when this returns.
     pub(crate) fn end(&self) {
         let line = self.line.lock().unwrap_or_else(PoisonError::into_inner).take();
-        if let Some(Line { over, thread }) = line {
-            drop(over);
-            // A thread that could not draw is no matter.
-            let _ = thread.join();
+        if let Some(line) = line {
+            line.erase();
         }
+    }
+
+    /// Prints something while something goes on: the line stands below it afterwards.
+    pub(crate) fn aside(&self, print: impl FnOnce()) {
+        // Held meanwhile, so that what goes on does not end in between.
+        let mut line = self.line.lock().unwrap_or_else(PoisonError::into_inner);
+        let interrupted = line.take().map(Line::erase);
+        print();
+        *line = interrupted.map(|(stage, begun, delay)| {
+            let left = delay.saturating_sub(begun.elapsed());
+            Line::drawn_on(ProgressDrawTarget::stderr, &stage, begun, left)
+        });
     }
 }
 
 impl Line {
-    fn drawn_on(target: impl FnOnce() -> ProgressDrawTarget + Send + 'static, stage: &str, delay: Duration) -> Self {
+    fn drawn_on(
+        target: impl FnOnce() -> ProgressDrawTarget + Send + 'static,
+        stage: &str,
+        begun: Instant,
+        delay: Duration,
+    ) -> Self {
         let (over, is_over) = channel::<()>();
-        let (begun, stage) = (Instant::now(), stage.to_owned());
+        let drawn = stage.to_owned();
         let thread = thread::spawn(move || {
             let waits = |time| is_over.recv_timeout(time) == Err(RecvTimeoutError::Timeout);
             if !waits(delay) {
@@ -79,7 +105,7 @@ impl Line {
                 bar.set_style(style);
             }
             loop {
-                bar.set_message(format!("{stage} … {} s", begun.elapsed().as_secs()));
+                bar.set_message(format!("{drawn} … {} s", begun.elapsed().as_secs()));
                 bar.tick();
                 if !waits(INTERVAL) {
                     break;
@@ -87,7 +113,15 @@ impl Line {
             }
             bar.finish_and_clear();
         });
-        Self { over, thread }
+        Self { stage: stage.to_owned(), begun, delay, over, thread }
+    }
+
+    /// Erases it, and gives what it is about, since when, and after how long it is spoken of.
+    fn erase(self) -> (String, Instant, Duration) {
+        drop(self.over);
+        // A thread that could not draw is no matter.
+        let _ = self.thread.join();
+        (self.stage, self.begun, self.delay)
     }
 }
 
@@ -100,8 +134,8 @@ mod tests {
     fn waiting_on(terminal: &InMemoryTerm, delay: Duration) -> Waiting {
         let terminal = terminal.clone();
         let target = move || ProgressDrawTarget::term_like(Box::new(terminal));
-        let line = Line::drawn_on(target, "planning", delay);
-        Waiting { is_shown: true, line: Arc::new(Mutex::new(Some(line))) }
+        let line = Line::drawn_on(target, "planning", Instant::now(), delay);
+        Waiting { is_shown: true, line: Arc::new(Mutex::new(Some(line))), ..Waiting::default() }
     }
 
     /// Looks until something stands there.

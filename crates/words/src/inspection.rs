@@ -24,6 +24,9 @@ pub struct InspectionView {
     pub tried: Vec<TriedView>,
     /// What is wrong.
     pub findings: Vec<FindingView>,
+    /// The request that was not answered, if the environment ended, or was stopped, before all was tried.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub broken_off: Option<String>,
 }
 
 /// An action that was carried out.
@@ -71,6 +74,7 @@ impl InspectionView {
             predicates: inspection.predicates.iter().map(ToString::to_string).collect(),
             tried: inspection.tried.iter().map(TriedView::of).collect(),
             findings: inspection.findings.iter().map(FindingView::of).collect(),
+            broken_off: inspection.broken_off.clone(),
         }
     }
 }
@@ -119,6 +123,9 @@ pub fn inspection_lines(name: &str, can_reset: bool, inspection: &Inspection) ->
         lines.push(Text::new().with(role, word).plain(format!("  {}: {}", finding.place, finding.problem)));
         lines.push(Text::new().plain("  ").with(Role::Aside, finding.problem.hint()));
     }
+    if let Some(asked) = &inspection.broken_off {
+        lines.push(Text::new().with(Role::Warning, "broken off").plain(format!("  {asked} was not answered")));
+    }
     lines.push(verdict(inspection));
     lines
 }
@@ -145,6 +152,7 @@ fn verdict(inspection: &Inspection) -> Text {
     let certain = inspection.findings.iter().filter(|finding| finding.problem.is_certain()).count();
     let others = inspection.findings.len() - certain;
     match (certain, others) {
+        (0, 0) if inspection.broken_off.is_some() => Text::new().plain("nothing found so far that would hurt learning"),
         (0, 0) if inspection.tried.iter().any(|tried| tried.executed) => {
             Text::new().with(Role::Good, "nothing found that would hurt learning")
         }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use typelift_model::{Goal, GroundCall, Hierarchy, ParseConfig, SourceId, State, Symbol, Unknown, Witness};
 
-use crate::{Expected, FileError, Parser, Verdict};
+use crate::{Expected, FileError, LeftOut, Parser, Verdict};
 
 /// The first line of a trace.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -127,6 +127,8 @@ pub struct Dataset {
     pub attributes: BTreeMap<Symbol, Symbol>,
     /// What was to be ignored and was never met.
     pub unmatched_ignores: Vec<Symbol>,
+    /// Attributes and relations that snapshots have at times only.
+    pub left_out: Vec<LeftOut>,
     /// The demonstrations.
     pub traces: Vec<Trace>,
     /// Files that were the same, byte for byte, as one read before, and are not among the traces.
@@ -171,6 +173,7 @@ impl Dataset {
             parse: parser.config().clone(),
             attributes: parser.attributes(),
             unmatched_ignores: parser.unmatched_ignores().cloned().collect(),
+            left_out: parser.left_out(),
             traces: once,
             repeated,
         }

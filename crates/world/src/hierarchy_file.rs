@@ -1,12 +1,12 @@
 //! Hierarchy files: a PDDL `(:types …)` block, a whole domain, or JSON `{"child": "parent"}`, where several parents are a
 //! list.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::path::{Path, PathBuf};
 
 use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};
-use typelift_model::{ArgumentTypes, Hierarchy, Symbol, TypeId, check_name, did_you_mean};
+use typelift_model::{ArgumentTypes, Hierarchy, ROOT, Symbol, TypeId, check_name, did_you_mean};
 use typelift_pddl::{
     Declarations, Document, ObjectDeclaration, PddlError, Span, TypeEdge, hierarchy_from_types,
     read_declared_predicates,
@@ -95,6 +95,24 @@ impl TypesFile {
     /// Each type with each of its parents, in the order of the file.
     pub fn edges(&self) -> &[TypeEdge] {
         &self.edges
+    }
+
+    /// Parents that are declared nowhere themselves, as they need not be, and whose names are nearly those of types that
+    /// are: probably slips.
+    pub fn warnings(&self) -> Vec<FileError> {
+        let declared: BTreeSet<&Symbol> = self.edges.iter().map(|edge| &edge.child).collect();
+        let mut told = BTreeSet::from([Symbol::new(ROOT)]);
+        let mut warnings = Vec::new();
+        for TypeEdge { child, parent, span } in self.edges.iter().filter(|edge| !declared.contains(&edge.parent)) {
+            if !told.insert(parent.clone()) {
+                continue;
+            }
+            let Some(hint) = did_you_mean(parent.as_str(), declared.iter().copied()) else { continue };
+            let message = format!("`{parent}`, of which `{child}` is a kind, is declared nowhere");
+            let error = PddlError::new(&self.text, *span, message).with_hint(hint);
+            warnings.push(FileError::from_pddl(&self.path, &self.text, error));
+        }
+        warnings
     }
 
     /// `base` with these types.
@@ -252,6 +270,24 @@ mod tests {
             "types:1:20: the type hierarchy has a cycle: a - b - a"
         );
         assert!(read(r#"{"a": []}"#).is_err());
+    }
+
+    #[test]
+    fn a_parent_that_is_nearly_a_declared_type_is_doubted() {
+        let warnings = |text: &str| {
+            let file = TypesFile::from_text(Path::new("types"), text.to_owned()).expect(text);
+            file.warnings().iter().map(|w| (w.to_string(), w.hint.clone().unwrap_or_default())).collect::<Vec<_>>()
+        };
+        assert_eq!(
+            warnings("(:types drum - load oil acid - dum)"),
+            [(
+                "types:1:21: `dum`, of which `oil` is a kind, is declared nowhere".to_owned(),
+                "Did you mean `drum`?".to_owned()
+            )]
+        );
+        assert_eq!(warnings(r#"{"drum": "load", "oil": "dum"}"#).len(), 1);
+        assert_eq!(warnings("(:types drum - load dum - load oil - dum)"), [], "it is declared");
+        assert_eq!(warnings("(:types truck - vehicle box - object)"), [], "nothing is like it");
     }
 
     #[test]

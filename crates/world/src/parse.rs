@@ -22,7 +22,8 @@ use typelift_model::{
     check_name, name_with_arity, predicate_told_apart,
 };
 
-use crate::{Entity, Relation, Scene, Snapshot, Value};
+use crate::left_out::KeySets;
+use crate::{Entity, LeftOut, Relation, Scene, Snapshot, Value};
 
 /// What is wrong with a scene.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -140,13 +141,15 @@ pub struct Parser {
     sources: BTreeMap<(Symbol, usize), PredicateSource>,
     /// Rules of `config.ignore` that matched something.
     matched: BTreeSet<Symbol>,
+    /// What entities had of what they could have.
+    keys: KeySets,
 }
 
 impl Parser {
     /// A parser that has seen nothing yet.
     pub fn new(hierarchy: Hierarchy, config: ParseConfig) -> Self {
         let (known, sources, matched) = (BTreeMap::new(), BTreeMap::new(), BTreeSet::new());
-        Self { hierarchy, config, known, sources, matched }
+        Self { hierarchy, config, known, sources, matched, keys: KeySets::default() }
     }
 
     /// The same for states that a model of these predicates is to be used in: a predicate that has the name of one of them,
@@ -176,6 +179,11 @@ impl Parser {
     /// What was to be ignored and was never met.
     pub fn unmatched_ignores(&self) -> impl Iterator<Item = &Symbol> {
         self.config.ignore.difference(&self.matched)
+    }
+
+    /// Attributes and relations that were there at times only, in the snapshots so far.
+    pub fn left_out(&self) -> Vec<LeftOut> {
+        self.keys.left_out()
     }
 
     /// The state that a scene shows.
@@ -248,6 +256,7 @@ impl Parser {
         }
         for entity in &snapshot.entities {
             let ty = state.objects[&entity.id];
+            self.note_keys(ty, entity);
             for (name, value) in &entity.attributes {
                 if !self.ignored(ty, name) {
                     self.parse_attribute(&mut state, entity, name, value)?;
@@ -260,6 +269,12 @@ impl Parser {
             }
         }
         Ok(state)
+    }
+
+    fn note_keys(&mut self, ty: TypeId, entity: &Entity) {
+        let mut keys = std::mem::take(&mut self.keys);
+        keys.note(entity, |key| self.ignored(ty, key));
+        self.keys = keys;
     }
 
     fn add_object(&self, state: &mut State, name: &Symbol, ty: &Symbol) -> Result<(), ParseError> {

@@ -34,5 +34,6 @@ mod remembering;
 mod shell;
 mod simulator;
 mod strange;
+mod terminals;
 mod usage;
 mod validating;

@@ -14,8 +14,10 @@ mod comparing;
 mod problem;
 mod sightings;
 
+use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 
+use thiserror::Error;
 use typelift_model::{GroundCall, Hierarchy, ParseConfig, ROOT, State, Symbol, nearest};
 
 use crate::{Parser, Reset, Scene, UnreadKey, World, WorldError};
@@ -53,6 +55,18 @@ pub struct Inspection {
     pub tried: Vec<Tried>,
     /// What is wrong, each thing once.
     pub findings: Vec<Finding>,
+    /// The request that was not answered, if the environment ended before all was tried: the rest is what was found so far.
+    pub broken_off: Option<String>,
+}
+
+/// An environment that failed while it was tried.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{error}")]
+pub struct BrokenOff {
+    /// How it failed.
+    pub error: WorldError,
+    /// What was found until then.
+    pub found: Box<Inspection>,
 }
 
 /// What came of an action.
@@ -72,32 +86,15 @@ pub struct Tried {
 /// says what of all this would hurt learning. The cost is that of comparing these states.
 ///
 /// # Errors
-/// [`WorldError`] if the environment itself fails.
-pub fn inspect(world: &mut dyn World, options: &InspectOptions) -> Result<Inspection, WorldError> {
+/// [`BrokenOff`] if the environment itself fails, with what was found until then.
+pub fn inspect(world: &mut dyn World, options: &InspectOptions) -> Result<Inspection, BrokenOff> {
     let mut inspector = Inspector::new(options);
-    let mut set_up = Vec::new();
-    if world.can_reset() {
-        for place in ["reset", "second reset"] {
-            let scene = world.reset(&options.reset)?;
-            set_up.push(inspector.look(place, &scene));
-        }
-    }
-    let mut observed = Vec::new();
-    for _ in 0..OBSERVATIONS {
-        let scene = world.observe()?;
-        observed.push(inspector.look("observe", &scene));
-    }
-    inspector.compare_observations(&observed);
-    if let [first, second] = set_up.as_slice() {
-        inspector.compare_resets(options.reset.seed, first.as_ref(), second.as_ref());
-        inspector.compare_settled("reset", second.as_ref(), observed[0].as_ref());
-    }
-    let mut before = observed.pop().flatten();
-    for call in &options.calls {
-        before = inspector.try_call(world, call, before.as_ref())?;
-    }
+    let tried = inspector.try_all(world, options);
     inspector.note_unread_keys(world.unread_keys());
-    Ok(inspector.finish())
+    match tried {
+        Ok(()) => Ok(inspector.finish(true)),
+        Err(error) => Err(BrokenOff { error, found: Box::new(inspector.finish(false)) }),
+    }
 }
 
 /// What is gathered while an environment is tried.
@@ -115,6 +112,8 @@ struct Inspector {
     flickering: BTreeSet<Symbol>,
     tried: Vec<Tried>,
     findings: Vec<Finding>,
+    /// What the world was asked for last.
+    asked: String,
 }
 
 impl Inspector {
@@ -131,7 +130,40 @@ impl Inspector {
             flickering: BTreeSet::new(),
             tried: Vec::new(),
             findings: Vec::new(),
+            asked: String::new(),
         }
+    }
+
+    /// All that is done with the world.
+    fn try_all(&mut self, world: &mut dyn World, options: &InspectOptions) -> Result<(), WorldError> {
+        let mut set_up = Vec::new();
+        if world.can_reset() {
+            for place in ["reset", "second reset"] {
+                place.clone_into(&mut self.asked);
+                let scene = world.reset(&options.reset)?;
+                set_up.push(self.look(place, &scene));
+            }
+        }
+        let mut observed = Vec::new();
+        for _ in 0..OBSERVATIONS {
+            let scene = self.observe(world)?;
+            observed.push(self.look("observe", &scene));
+        }
+        self.compare_observations(&observed);
+        if let [first, second] = set_up.as_slice() {
+            self.compare_resets(options.reset.seed, first.as_ref(), second.as_ref());
+            self.compare_settled("reset", second.as_ref(), observed[0].as_ref());
+        }
+        let mut before = observed.pop().flatten();
+        for call in &options.calls {
+            before = self.try_call(world, call, before.as_ref())?;
+        }
+        Ok(())
+    }
+
+    fn observe(&mut self, world: &mut dyn World) -> Result<Scene, WorldError> {
+        "observe".clone_into(&mut self.asked);
+        world.observe()
     }
 
     fn find(&mut self, place: &str, problem: Problem) {
@@ -245,9 +277,10 @@ impl Inspector {
             let near = nearest(entity.as_str(), self.types_of_entities.keys()).cloned();
             self.find(&place, Problem::NoSuchEntity { entity, near });
         }
+        self.asked.clone_from(&place);
         let acted = world.act(call)?;
         let after = self.look(&place, &acted.scene);
-        let observed = world.observe()?;
+        let observed = self.observe(world)?;
         let observed = self.look("observe", &observed);
         self.compare_settled(&place, after.as_ref(), observed.as_ref());
         let change = before
@@ -274,12 +307,18 @@ impl Inspector {
         }
     }
 
-    fn finish(mut self) -> Inspection {
+    fn finish(mut self, is_complete: bool) -> Inspection {
         for problem in self.sightings.problems() {
             self.find("state", problem);
         }
-        for name in self.parser.unmatched_ignores().cloned().collect::<Vec<_>>() {
-            self.find("state", Problem::NothingIgnored { name });
+        for (one, other) in differing_in_case(self.predicates.iter().chain(self.types.keys())) {
+            self.find("state", Problem::DiffersInCase { one, other });
+        }
+        // What was not met yet might have been.
+        if is_complete {
+            for name in self.parser.unmatched_ignores().cloned().collect::<Vec<_>>() {
+                self.find("state", Problem::NothingIgnored { name });
+            }
         }
         Inspection {
             entities: self.entities.unwrap_or_default(),
@@ -287,8 +326,22 @@ impl Inspector {
             predicates: self.predicates,
             tried: self.tried,
             findings: self.findings,
+            broken_off: (!is_complete).then_some(self.asked),
         }
     }
+}
+
+/// Names that differ in case only from one before.
+fn differing_in_case<'n>(names: impl Iterator<Item = &'n Symbol>) -> Vec<(Symbol, Symbol)> {
+    let mut spelled: BTreeMap<String, &Symbol> = BTreeMap::new();
+    let differs = |name: &'n Symbol| match spelled.entry(name.as_str().to_lowercase()) {
+        Entry::Vacant(entry) => {
+            entry.insert(name);
+            None
+        }
+        Entry::Occupied(entry) => (*entry.get() != name).then(|| ((*entry.get()).clone(), name.clone())),
+    };
+    names.filter_map(differs).collect()
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use std::fmt;
 use thiserror::Error;
 use typelift_model::{GroundAtom, Symbol};
 
-use crate::ParseError;
+use crate::{LeftOut, ParseError};
 
 /// Atoms that are listed; of more it is said how many there are.
 const LISTED: usize = 3;
@@ -151,6 +151,17 @@ pub enum Problem {
         /// Its name.
         name: Symbol,
     },
+    /// An attribute or relation that is there at times only.
+    #[error("{0}")]
+    LeftOut(LeftOut),
+    /// Two names that PDDL, and therefore a model, takes for one.
+    #[error("`{one}` and `{other}` differ in case only")]
+    DiffersInCase {
+        /// The one.
+        one: Symbol,
+        /// The other.
+        other: Symbol,
+    },
     /// A relation that is now a list and now an id or null.
     #[error("the relation `{relation}` is now a list, as of {list}, and now an id or null, as of {one}")]
     MixedRelation {
@@ -223,6 +234,8 @@ impl Problem {
             Self::ChangesUnexecuted { .. } => "changes_unexecuted",
             Self::NoSuchEntity { .. } => "no_such_entity",
             Self::NothingIgnored { .. } => "nothing_ignored",
+            Self::LeftOut(_) => "left_out",
+            Self::DiffersInCase { .. } => "differs_in_case",
             Self::MixedRelation { .. } => "mixed_relation",
             Self::ListOfOne { .. } => "list_of_one",
             Self::MixedAttribute { .. } => "mixed_attribute",
@@ -239,6 +252,7 @@ impl Problem {
             Self::ChangesNothing
                 | Self::NoSuchEntity { .. }
                 | Self::NothingIgnored { .. }
+                | Self::LeftOut(_)
                 | Self::ListOfOne { .. }
                 | Self::FewNumbers { .. }
                 | Self::ManyWords { .. }
@@ -285,6 +299,10 @@ impl Problem {
             Self::NoSuchEntity { near: Some(near), .. } => format!("Did you mean `{near}`?"),
             Self::NoSuchEntity { .. } => "Try it with one that the state shows.".to_owned(),
             Self::NothingIgnored { .. } => "Is it spelt as the states spell it?".to_owned(),
+            Self::LeftOut(left_out) => left_out.hint(),
+            Self::DiffersInCase { .. } => {
+                "Spell it alike everywhere: names that differ in case only are refused in a model.".to_owned()
+            }
             Self::MixedRelation { .. } => "Where there may be several it is a list, even of one or none; where there is at \
                                            most one it is an id or null."
                 .to_owned(),

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use typelift_model::{ParseConfig, Symbol};
 
 use super::Problem;
+use crate::left_out::KeySets;
 use crate::{Entity, Relation, Snapshot, Value};
 
 /// A number with at most so many values may stand for so many words.
@@ -18,6 +19,7 @@ const MANY: usize = 4;
 pub(super) struct Sightings {
     attributes: BTreeMap<Symbol, Attribute>,
     relations: BTreeMap<Symbol, Related>,
+    keys: KeySets,
 }
 
 /// What was seen of an attribute.
@@ -48,6 +50,8 @@ impl Sightings {
     /// Notes what a scene shows, without what is to be ignored wherever it is.
     pub(super) fn note(&mut self, snapshot: &Snapshot, parse: &ParseConfig) {
         for entity in &snapshot.entities {
+            let rule_of_type = |key: &Symbol| Symbol::from(format!("{}.{key}", entity.ty));
+            self.keys.note(entity, |key| parse.ignore.contains(key) || parse.ignore.contains(&rule_of_type(key)));
             for (name, value) in entity.attributes.iter().filter(|(name, _)| !parse.ignore.contains(*name)) {
                 self.attributes.entry(name.clone()).or_default().note(entity, value);
             }
@@ -61,7 +65,8 @@ impl Sightings {
     pub(super) fn problems(&self) -> Vec<Problem> {
         let relations = self.relations.iter().filter_map(|(name, related)| related.problem(name));
         let attributes = self.attributes.iter().filter_map(|(name, attribute)| attribute.problem(name));
-        relations.chain(attributes).collect()
+        let left_out = self.keys.left_out().into_iter().map(Problem::LeftOut);
+        relations.chain(attributes).chain(left_out).collect()
     }
 }
 

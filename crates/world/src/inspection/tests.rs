@@ -189,3 +189,86 @@ fn what_is_asked_for_and_not_there_is_said() {
         ["start(pump_2, tank_1): there is no entity `pump_2`", "state: `flwo`, which is to be left out, was never met"]
     );
 }
+
+#[test]
+fn what_is_left_out_at_times_is_found_where_it_gives_an_atom() {
+    let told = |attributes: [&str; 2], relations: [&str; 2]| {
+        let scenes = [0, 1].map(|at| pump(attributes[at], relations[at]));
+        let found = shown(&[&scenes[0], &scenes[0], &scenes[1]]);
+        found.into_iter().filter(|line| line.starts_with("state: ")).collect::<Vec<_>>()
+    };
+    assert_eq!(
+        told([r#""mode":"Idle""#, ""], [r#""feeds":"tank_1""#, ""]),
+        [
+            "state: the relation `feeds` of pump_1 is left out in some states, and in others it is there",
+            "state: the attribute `mode` of pump_1 is left out in some states, and in others it is there",
+        ]
+    );
+    // False, an empty list and a number give no atom, nor does what is left out.
+    assert_eq!(told([r#""on":true,"flow":0.25"#, ""], [r#""near":["tank_1","pump_1"]"#, ""]), Vec::<String>::new());
+    assert_eq!(told(["", ""], [r#""feeds":"tank_1""#, r#""feeds":null"#]), Vec::<String>::new(), "null is there");
+    let two = r#"{"entities":[{"id":"a","type":"pump","attributes":{"mode":"Idle"}},{"id":"b","type":"pump"}]}"#;
+    assert_eq!(
+        shown(&[two]),
+        ["state: the attribute `mode` is left out of b, and a, which is of type pump too, has it"]
+    );
+    let ignoring = ParseConfig { ignore: BTreeSet::from([Symbol::new("pump.mode")]), ..ParseConfig::default() };
+    let options = InspectOptions { parse: ignoring, ..InspectOptions::default() };
+    let of_the_type = |found: Vec<String>| found.iter().any(|line| line.contains("left out of b"));
+    assert!(!of_the_type(findings(Scripted::showing(&[two]), &options)));
+}
+
+#[test]
+fn words_that_differ_in_case_only_are_one_name_in_pddl() {
+    let two = r#"{"entities":[{"id":"a","type":"pump","attributes":{"mode":"Idle"}},
+                              {"id":"b","type":"pump","attributes":{"mode":"idle"}}]}"#;
+    assert_eq!(shown(&[two]), ["state: `mode_Idle` and `mode_idle` differ in case only"]);
+    let types = r#"{"entities":[{"id":"a","type":"pump"},{"id":"b","type":"Pump"}]}"#;
+    assert_eq!(shown(&[types]), ["state: `Pump` and `pump` differ in case only"]);
+}
+
+/// A world that is gone after so many answers.
+struct Mortal(Scripted, usize);
+
+impl Mortal {
+    fn answer(&mut self) -> Result<Scene, WorldError> {
+        self.1 = self.1.checked_sub(1).ok_or_else(|| WorldError::Gone { account: "gone".to_owned() })?;
+        Ok(self.0.next())
+    }
+}
+
+impl World for Mortal {
+    fn name(&self) -> String {
+        "mortal".to_owned()
+    }
+
+    fn reset(&mut self, _: &Reset) -> Result<Scene, WorldError> {
+        self.answer()
+    }
+
+    fn observe(&mut self) -> Result<Scene, WorldError> {
+        self.answer()
+    }
+
+    fn act(&mut self, _: &GroundCall) -> Result<Acted, WorldError> {
+        Ok(Acted { scene: self.answer()?, executed: true, reason: None })
+    }
+}
+
+#[test]
+fn what_was_found_before_it_broke_off_is_kept() {
+    let (on, off) = (pump(r#""on":true"#, ""), pump(r#""on":false"#, ""));
+    let scenes = [on.as_str(), off.as_str()];
+    let options = InspectOptions {
+        parse: ParseConfig { ignore: BTreeSet::from([Symbol::new("flwo")]), ..ParseConfig::default() },
+        ..calling()
+    };
+    for (answers, asked, findings) in
+        [(0, "reset", 0), (1, "second reset", 0), (3, "observe", 0), (BEFORE_CALLS, "start(pump_1)", 1)]
+    {
+        let mut world = Mortal(Scripted::showing(&scenes), answers);
+        let BrokenOff { error, found } = inspect(&mut world, &options).expect_err("it ends");
+        assert_eq!(error, WorldError::Gone { account: "gone".to_owned() });
+        assert_eq!((found.broken_off.as_deref(), found.findings.len()), (Some(asked), findings), "{found:?}");
+    }
+}
