@@ -4,11 +4,11 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use typelift::model::strict;
-use typelift::words::{difference, difference_lines};
+use typelift::words::{difference, difference_lines, evidence_difference};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::files::read_model_input;
+use crate::files::{ModelInput, read_model_input};
 use crate::style::painted;
 
 /// Say how two models differ
@@ -19,9 +19,11 @@ use crate::style::painted;
 
 Actions of one skill are matched by their effects, whatever their parameters
 are called. Before what only the first has stands -, before what only the second
-has +. Beside a PDDL domain names may differ in case, and a learned model is
-taken as `export` writes it: its actions need what they add not to hold. With
---not-strict it is taken as `show --pddl` writes it, and `export --not-strict`.
+has +. Models that act alike are the same, however much they were learned from;
+of two learned ones that is said last. Beside a PDDL domain, which does not say
+who acts, names may differ in case, and a learned model is taken as `export`
+writes it: its actions need what they add not to hold. With --not-strict it is
+taken as `show --pddl` writes it, and `export --not-strict`.
 
 Exit codes: 0 the same, 12 different, 31 bad input, 36 wrong usage.")]
 pub(crate) struct Diff {
@@ -41,11 +43,14 @@ impl Diff {
     pub(crate) fn run(&self) -> Result<Exit, Failure> {
         let (first, second) = (read_model_input(&self.first, None)?, read_model_input(&self.second, None)?);
         let beside_pddl = first.is_given() || second.is_given();
-        let found = if beside_pddl && !self.not_strict {
+        let mut found = if beside_pddl && !self.not_strict {
             difference(&strict(first.model()), &strict(second.model()), true)
         } else {
             difference(first.model(), second.model(), beside_pddl)
         };
+        if let (ModelInput::Learned(first), ModelInput::Learned(second)) = (&first, &second) {
+            found.evidence = evidence_difference(&first.evidence, &second.evidence);
+        }
         let mut out = anstream::stdout().lock();
         if self.json {
             writeln!(out, "{}", serde_json::to_string(&found).unwrap_or_default())?;

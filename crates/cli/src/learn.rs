@@ -4,19 +4,21 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use typelift::learn::{self, Actor, LearnError, Options, evidence_of, learn_evidence};
+use typelift::learn::{self, Options, evidence_of, learn_evidence};
 use typelift::model::{
     ClusterKey, GroundAtom, LearnedModel, LiftedAtom, Observations, SourceId, Symbol, Unexplained, name_with_arity,
     predicate_told_apart,
 };
 use typelift::words::{TypeNote, missing_actor, unbounded_parameters};
 use typelift::world::{
-    Dataset, ObjectTypes, Repeated, TrajectoryContext, Unlisted, demonstrations_at, read_dataset, write_file,
+    Dataset, FileError, LeftOut, ObjectTypes, Repeated, TrajectoryContext, Unlisted, demonstrations_at, read_dataset,
+    write_file,
 };
 
 use crate::exit::Exit;
-use crate::failure::{Failure, or_one_of};
+use crate::failure::Failure;
 use crate::files::warn;
+use crate::learn_actor;
 use crate::learn_into::{self, add, beginning, forget};
 use crate::learn_report::{Report, print_counts};
 use crate::limits::{Clock, Limits};
@@ -89,6 +91,8 @@ pub(crate) struct Learn {
 /// What was read, and what was learned from it.
 struct Learned {
     dataset: Dataset,
+    /// What is probably not meant in the types.
+    type_warnings: Vec<FileError>,
     /// The traces that the model had already.
     known: Vec<SourceId>,
     model: LearnedModel,
@@ -157,8 +161,8 @@ impl Learn {
             (_, true) => Unlisted::Unknown,
             _ => Unlisted::AsListed,
         };
-        let LearnedModel { model, domain, declared_predicates, parse, options, mut evidence, .. } =
-            beginning(self.into.as_ref(), self.types.as_ref(), ignore)?;
+        let (begun, type_warnings) = beginning(self.into.as_ref(), self.types.as_ref(), ignore)?;
+        let LearnedModel { model, domain, declared_predicates, parse, options, mut evidence, .. } = begun;
         types.add_constants(model.constants.iter().map(|(name, ty)| (name, model.hierarchy.name(*ty))));
         let context = TrajectoryContext { types, unlisted };
         let constants = model.constants;
@@ -174,24 +178,21 @@ impl Learn {
         if self.compact {
             evidence.compact();
         }
-        let actor = match self.actor.as_deref() {
-            None => None,
-            Some("none") => Some(Actor::Nobody),
-            Some(name) => Some(Actor::Type(Symbol::new(name))),
-        };
-        let options = learn_into::options(&options, Options { individual: self.individual, actor });
+        warn_of_left_out(&dataset.left_out);
+        let actor = learn_actor::declared(self.actor.as_deref());
+        let now = Options { individual: self.individual, actor: actor.clone() };
+        let options = learn_into::options(&options, now);
         let learned = learn_evidence(&dataset.hierarchy, &dataset.parse, evidence, &options);
         let (mut model, report) = learned.map_err(|error| {
-            let LearnError::UnknownType(name) = &error;
             let types: Vec<Symbol> = dataset.hierarchy.types().map(|t| dataset.hierarchy.name(t).clone()).collect();
-            let hint = format!("{} Or say `none`.", or_one_of(name.as_str(), &types));
-            Failure::bad_input(format!("--actor {name}: {error}")).with_hint(hint)
+            learn_actor::unknown(&error, &types)
         })?;
+        learn_actor::refuse_absent(actor.as_ref(), &model.model, &model.evidence.total())?;
         (model.domain, model.model.constants) = (domain, constants);
         model.declare(declared_predicates);
         let missing_actor = report.no_actor.as_ref().and_then(|why| missing_actor(why, actor_before.as_ref()));
         let notes = missing_actor.into_iter().chain(unbounded_parameters(&model.model)).collect();
-        Ok(Learned { dataset, known, model, report, notes })
+        Ok(Learned { dataset, type_warnings, known, model, report, notes })
     }
 
     /// `--dry-run`: what would be learned from.
@@ -250,7 +251,8 @@ impl Learn {
     /// Warns of what is probably not meant in the files, of names to ignore that were never met, and of attributes that
     /// seem to flicker: most actions rest on a single observation, and there would be fewer without some predicate.
     fn warn(&self, learned: &Learned) {
-        let Learned { dataset, known, model, report, .. } = learned;
+        let Learned { dataset, type_warnings, known, model, report, .. } = learned;
+        warn(type_warnings.iter());
         for Repeated { file, first, source } in &dataset.repeated {
             let source = source.short();
             anstream::eprintln!(
@@ -262,6 +264,9 @@ impl Learn {
             anstream::eprintln!("{WARNING}warning{WARNING:#}: {name} ({id}) is in the model already; it counts once");
         }
         warn(dataset.traces.iter().flat_map(|trace| &trace.warnings));
+        warn_of_left_out(&dataset.left_out);
+        let actor = learn_actor::declared(self.actor.as_deref());
+        learn_actor::warn_of_acted_on(actor.as_ref(), &model.model, &model.evidence.total());
         let unexplained = &model.evidence.total().unexplained;
         let hidden = [Unexplained::PartlyObserved, Unexplained::UnlistedKinds];
         if dataset.has_open_states() && hidden.iter().any(|reason| unexplained.contains_key(reason)) {
@@ -277,7 +282,7 @@ impl Learn {
         }
         // Of the notes only that of the actor is about no parameter.
         if learned.notes.iter().any(|note| note.parameter.is_none()) {
-            anstream::eprintln!("{HINT}hint{HINT:#}: --actor TYPE says who acts");
+            learn_actor::hint(report.no_actor.as_ref());
         }
         if report.individual == 0 {
             let why = match report.transitions {
@@ -298,6 +303,15 @@ impl Learn {
         anstream::eprintln!(
             "{HINT}hint{HINT:#}: what changes by itself keeps alike actions apart; without {predicate} there would be {fewer} kinds of effect instead of {all}: if it flickers, give it hysteresis; if it does not matter, --ignore {source}"
         );
+    }
+}
+
+/// Warns of attributes and relations that entities have at times only: the first of them, and how many there are.
+fn warn_of_left_out(left_out: &[LeftOut]) {
+    if let Some((first, others)) = left_out.split_first() {
+        let more = if others.is_empty() { String::new() } else { format!("; {} more like it", others.len()) };
+        anstream::eprintln!("{WARNING}warning{WARNING:#}: {first}{more}");
+        anstream::eprintln!("{HINT}hint{HINT:#}: {}", first.hint());
     }
 }
 

@@ -22,6 +22,8 @@ struct Given<'p> {
     domain: Option<Symbol>,
     constants: BTreeMap<Symbol, TypeId>,
     predicates: ArgumentTypes,
+    /// What is probably not meant in it.
+    warnings: Vec<FileError>,
 }
 
 impl<'p> Given<'p> {
@@ -30,17 +32,18 @@ impl<'p> Given<'p> {
         let hierarchy = file.extend(&Hierarchy::default())?;
         let constants = file.constants(&hierarchy)?;
         let predicates = file.predicates(&hierarchy)?;
-        Ok(Self { path, domain: file.domain().cloned(), hierarchy, constants, predicates })
+        Ok(Self { path, domain: file.domain().cloned(), hierarchy, constants, predicates, warnings: file.warnings() })
     }
 }
 
-/// A model without anything that it was learned from, or as it is in its file.
+/// A model without anything that it was learned from, or as it is in its file; and what to warn of in the types.
 pub(crate) fn beginning(
     into: Option<&PathBuf>,
     types: Option<&PathBuf>,
     ignore: BTreeSet<Symbol>,
-) -> Result<LearnedModel, Failure> {
-    let types = types.map(|path| Given::read(path)).transpose()?;
+) -> Result<(LearnedModel, Vec<FileError>), Failure> {
+    let mut types = types.map(|path| Given::read(path)).transpose()?;
+    let warnings = types.as_mut().map(|given| std::mem::take(&mut given.warnings)).unwrap_or_default();
     let Some(path) = into else {
         let mut none =
             LearnedModel { parse: ParseConfig { ignore, ..ParseConfig::default() }, ..LearnedModel::default() };
@@ -48,12 +51,12 @@ pub(crate) fn beginning(
             (none.model.hierarchy, none.domain, none.model.constants) = (hierarchy, domain, constants);
             none.declared_predicates = predicates;
         }
-        return Ok(none);
+        return Ok((none, warnings));
     };
     let ModelInput::Learned(mut learned) = read_model_input(path, None)? else {
         return Err(Failure::bad_input(format!("{}: this is a PDDL domain, not a learned model", path.display())));
     };
-    if let Some(Given { path: given, hierarchy, domain, constants, predicates }) = types {
+    if let Some(Given { path: given, hierarchy, domain, constants, predicates, .. }) = types {
         let agreed = learned.agrees(&hierarchy, &learned.parse);
         agreed.map_err(|error| {
             let hint = "Leave out --types: those of the model hold. Or learn from all traces anew.";
@@ -81,7 +84,7 @@ pub(crate) fn beginning(
             Failure::bad_input(format!("--ignore: {error}")).with_hint(hint)
         })?;
     }
-    Ok(*learned)
+    Ok((*learned, warnings))
 }
 
 /// What learning is asked for: as before, but for what is said now.

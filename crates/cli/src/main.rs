@@ -17,6 +17,7 @@ mod files;
 mod kitchen;
 mod lab;
 mod learn;
+mod learn_actor;
 mod learn_into;
 mod learn_report;
 mod limits;

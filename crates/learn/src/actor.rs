@@ -6,9 +6,39 @@ use typelift_model::{ActedOn, ClusterKey, Hierarchy, NoActor, Observations, Symb
 
 use crate::LearnError;
 
+/// What something of a type does in the calls that were observed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    /// It is argument 0 of some.
+    Acts,
+    /// It takes part, but never as argument 0.
+    ActedOn,
+    /// It takes no part in any.
+    Absent,
+}
+
+/// What is of this type, or may be, does in the calls that were observed. In time of the clusters.
+pub fn part_of(ty: TypeId, observations: &Observations, hierarchy: &Hierarchy) -> Part {
+    let may_be = |name: &Symbol| hierarchy.id(name.as_str()).is_some_and(|seen| !hierarchy.disjoint(seen, ty));
+    let part = |key: &ClusterKey| {
+        let acts = key.call.first().and_then(|&first| key.types.get(first as usize)).is_some_and(may_be);
+        if acts {
+            Part::Acts
+        } else if key.types.iter().any(may_be) {
+            Part::ActedOn
+        } else {
+            Part::Absent
+        }
+    };
+    let parts: Vec<Part> = observations.clusters.keys().map(part).collect();
+    let first_of = |wanted: &[Part]| wanted.iter().copied().find(|part| parts.contains(part));
+    first_of(&[Part::Acts, Part::ActedOn]).unwrap_or(Part::Absent)
+}
+
 /// The type that filled argument 0 of every action and took no other part in any: the default actor; or why there is none.
 /// What counts is what was seen, since an action that was generalized may take anything at all, the actor included, in
-/// another place. With calls of a single name nothing tells who acts.
+/// another place. With calls of a single name nothing tells who acts. Where all calls together show nobody, each name is
+/// left out in turn: in time of the clusters, times the names.
 ///
 /// # Errors
 /// [`LearnError::UnknownType`] if something observed is of a type that `hierarchy` does not have.
@@ -16,9 +46,35 @@ pub(crate) fn demonstrated_actor(
     observations: &Observations,
     hierarchy: &Hierarchy,
 ) -> Result<Result<TypeId, NoActor>, LearnError> {
+    let keys: Vec<&ClusterKey> = observations.clusters.keys().collect();
+    let why = match shown_by(&keys, hierarchy)? {
+        Err(why) if !matches!(why, NoActor::OneCall(_) | NoActor::NothingLearned) => why,
+        settled => return Ok(settled),
+    };
+    let calls: BTreeSet<&Symbol> = keys.iter().map(|key| &key.action).collect();
+    let mut but_for = None;
+    for call in calls {
+        let (own, others): (Vec<&ClusterKey>, Vec<&ClusterKey>) = keys.iter().partition(|key| key.action == *call);
+        let Ok(actor) = shown_by(&others, hierarchy)? else { continue };
+        let may_act = |name: &Symbol| hierarchy.id(name.as_str()).is_some_and(|ty| !hierarchy.disjoint(ty, actor));
+        let is_without = !own.iter().flat_map(|key| &key.types).any(may_act);
+        let found = NoActor::ButFor { call: call.clone(), actor: hierarchy.name(actor).clone(), is_without };
+        // A call in which nobody acts explains more than one in which somebody else does.
+        if is_without || but_for.is_none() {
+            but_for = Some(found);
+        }
+        if is_without {
+            break;
+        }
+    }
+    Ok(Err(but_for.unwrap_or(why)))
+}
+
+/// Who acts, as far as these calls show it.
+fn shown_by(keys: &[&ClusterKey], hierarchy: &Hierarchy) -> Result<Result<TypeId, NoActor>, LearnError> {
     let id = |name: &Symbol| hierarchy.id(name.as_str()).ok_or_else(|| LearnError::UnknownType(name.clone()));
     let (mut calls, mut acting, mut others) = (BTreeSet::new(), BTreeSet::new(), BTreeMap::new());
-    for key in observations.clusters.keys() {
+    for &key in keys {
         let Some(&first) = key.call.first() else { return Ok(Err(NoActor::NoArgument(key.action.clone()))) };
         calls.insert(&key.action);
         for (parameter, name) in (0..).zip(&key.types) {
@@ -134,5 +190,59 @@ mod tests {
         let types = [("left", "hand"), ("right", "hand"), ("hand", "object"), ("cup", "object"), ("table", "object")];
         let model = learned(&types, &[["left1", "cup1"]], &[["right1", "cup1", "table1"]]);
         assert_eq!(actor(&model), Some("hand"));
+    }
+
+    const DOCK: [(&str, &str); 4] = [("robot", "object"), ("box", "object"), ("gate", "object"), ("shelf", "object")];
+
+    /// What calls of one effect each show: that they took place.
+    fn shown(calls: &[&str]) -> (Hierarchy, Observations) {
+        let hierarchy = Hierarchy::from_edges(DOCK).expect("a hierarchy");
+        let mut observations = Observations::default();
+        for call in calls {
+            let atom = GroundAtom::parse(call).expect("a call");
+            let call = GroundCall { name: atom.predicate.clone(), args: atom.args.clone() };
+            let objects: Vec<&Symbol> = call.args.iter().collect();
+            let [before, after] = [vec![], vec![atom.to_string()]].map(|atoms| state(&hierarchy, &objects, &atoms));
+            let action = TraceAction::from(call);
+            let step = Transition { before: &before, action: &action, after: &after, file: None, step: 1 };
+            crate::observe(&mut observations, &step, &hierarchy);
+        }
+        (hierarchy, observations)
+    }
+
+    fn but_for(calls: &[&str]) -> Option<(String, String, bool)> {
+        let (hierarchy, observations) = shown(calls);
+        match demonstrated_actor(&observations, &hierarchy).expect("known types") {
+            Err(NoActor::ButFor { call, actor, is_without }) => Some((call.to_string(), actor.to_string(), is_without)),
+            _ => None,
+        }
+    }
+
+    #[test]
+    fn a_single_call_that_hides_who_acts_is_named() {
+        let robot = ["lift(robot1,box1)", "lower(robot1,box1,shelf1)"];
+        let with = |call| but_for(&[robot[0], robot[1], call]);
+        let expected = |call: &str, is_without| Some((call.to_owned(), "robot".to_owned(), is_without));
+        assert_eq!(with("close(gate1)"), expected("close", true), "something else acts");
+        assert_eq!(with("push(box1,shelf1)"), expected("push", true), "what is acted on elsewhere acts");
+        assert_eq!(with("give(robot1,robot2)"), expected("give", false), "who acts is acted on");
+        assert_eq!(with("tow(gate1,robot1)"), expected("tow", false));
+        let robot_alone = [robot[0], robot[1], "close(robot1,gate1)"];
+        assert_eq!(but_for(&robot_alone), None, "there is one");
+        assert_eq!(
+            but_for(&["lift(robot1,box1)", "close(gate1)"]),
+            None,
+            "what is left is one call, which tells nothing"
+        );
+        let two = [robot[0], robot[1], "close(gate1)", "push(box1,shelf1)"];
+        assert_eq!(but_for(&two), None, "it takes more than one call");
+    }
+
+    #[test]
+    fn the_part_of_a_type_is_the_greatest_that_it_takes() {
+        let (hierarchy, observations) = shown(&["lift(robot1,box1)", "push(box1,shelf1)"]);
+        let part = |name: &str| part_of(hierarchy.id(name).expect("a type"), &observations, &hierarchy);
+        let of_all = ["robot", "box", "shelf", "gate", "object"].map(part);
+        assert_eq!(of_all, [Part::Acts, Part::Acts, Part::ActedOn, Part::Absent, Part::Acts]);
     }
 }

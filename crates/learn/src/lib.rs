@@ -40,6 +40,7 @@ use typelift_model::{
 };
 use typelift_world::{Dataset, Trace};
 
+pub use actor::{Part, part_of};
 pub use cluster::observe;
 pub use typelift_model::{Actor, LearnOptions as Options};
 

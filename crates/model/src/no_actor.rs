@@ -44,11 +44,21 @@ pub enum NoActor {
         /// Whether all of that other type is of the type in which they meet; otherwise some of it may be.
         is_covered: bool,
     },
+    /// All calls but those of one name show who acts.
+    ButFor {
+        /// That name.
+        call: Symbol,
+        /// Who acts in all the others.
+        actor: Symbol,
+        /// Whether none of its own calls has anything of that type in it.
+        is_without: bool,
+    },
 }
 
 impl NoActor {
-    /// Whether it lies in the hierarchy of types, and not in what was demonstrated: with other types there would be an actor.
-    pub fn is_due_to_types(&self) -> bool {
-        matches!(self, Self::NothingInCommon { .. } | Self::NotAlone { .. })
+    /// Whether an actor may have been expected: it is missing for the hierarchy of types alone, or for calls of a single
+    /// name.
+    pub fn is_unexpected(&self) -> bool {
+        matches!(self, Self::NothingInCommon { .. } | Self::NotAlone { .. } | Self::ButFor { .. })
     }
 }

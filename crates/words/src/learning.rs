@@ -63,11 +63,11 @@ pub fn unbounded_parameters(model: &ActionModel) -> Vec<TypeNote> {
     notes
 }
 
-/// Why there is no default actor, where that may come as a surprise: it lies in the types, or there was one `before`.
+/// Why there is no default actor, where that may come as a surprise: in itself, or since there was one `before`.
 pub fn missing_actor(why: &NoActor, before: Option<&Symbol>) -> Option<TypeNote> {
     let begins = match before {
         Some(before) => format!("the default actor was {before}, and now there is none: "),
-        None if why.is_due_to_types() => "there is no default actor: ".to_owned(),
+        None if why.is_unexpected() => "there is no default actor: ".to_owned(),
         None => return None,
     };
     let acts = |acting: &BTreeSet<Symbol>| format!("argument 0 of the actions is {}", joined(acting, "or"));
@@ -95,6 +95,10 @@ pub fn missing_actor(why: &NoActor, before: Option<&Symbol>) -> Option<TypeNote>
                 met,
                 format!("{}{meets}; but {}, which {is} of type {meet}, too", acts(acting), takes(other)),
             )
+        }
+        NoActor::ButFor { call, actor, is_without } => {
+            let which = if *is_without { format!(", which never has a {actor} in it") } else { String::new() };
+            (Some(call), vec![actor], format!("but for {call}{which}, {actor} would be who acts"))
         }
     };
     Some(TypeNote {

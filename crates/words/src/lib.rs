@@ -33,7 +33,9 @@ mod wire;
 pub use account::{AccountView, BrokenOffView, ExclusionView, FailureView, summary};
 pub use action::{Description, Row, describe_action, describe_axiom, individual_name};
 pub use answer::{AnswerView, ending, why_none};
-pub use difference::{ActionDifference, ListDifference, ModelDifference, difference, difference_lines};
+pub use difference::{
+    ActionDifference, ListDifference, ModelDifference, difference, difference_lines, evidence_difference,
+};
 pub use event::line;
 pub use inspection::{FindingView, InspectionView, TriedView, inspection_lines};
 pub use learning::{TypeNote, missing_actor, unbounded_parameters, why_unexplained};

@@ -37,3 +37,4 @@ mod strange;
 mod terminals;
 mod usage;
 mod validating;
+mod who_acts;

@@ -8,10 +8,10 @@ mod matching;
 use std::collections::BTreeSet;
 
 use serde::Serialize;
-use typelift_model::{ActionModel, ActionSchema, Effect, Literal, Parameter};
+use typelift_model::{ActionModel, ActionSchema, Effect, Evidence, Literal, Parameter};
 
 use crate::action::{Written, conditional, describe_axiom};
-use crate::text::{Role, Text};
+use crate::text::{Role, Text, count};
 use matching::{Pair, matching};
 
 /// What only one of two lists has, each in its order.
@@ -34,18 +34,23 @@ pub struct ActionDifference {
     pub second: String,
     /// How its parameters' types differ.
     #[serde(skip_serializing_if = "ListDifference::is_empty")]
+    #[cfg_attr(feature = "schema", schemars(default))]
     pub parameters: ListDifference,
     /// How its preconditions differ.
     #[serde(skip_serializing_if = "ListDifference::is_empty")]
+    #[cfg_attr(feature = "schema", schemars(default))]
     pub needs: ListDifference,
     /// How its add effects differ.
     #[serde(skip_serializing_if = "ListDifference::is_empty")]
+    #[cfg_attr(feature = "schema", schemars(default))]
     pub adds: ListDifference,
     /// How its delete effects differ.
     #[serde(skip_serializing_if = "ListDifference::is_empty")]
+    #[cfg_attr(feature = "schema", schemars(default))]
     pub deletes: ListDifference,
     /// How its cost differs.
     #[serde(skip_serializing_if = "ListDifference::is_empty")]
+    #[cfg_attr(feature = "schema", schemars(default))]
     pub costs: ListDifference,
 }
 
@@ -55,6 +60,8 @@ pub struct ActionDifference {
 pub struct ModelDifference {
     /// Whether they do not.
     pub same: bool,
+    /// Who acts by default, `none` if nobody does.
+    pub actor: ListDifference,
     /// Types, each with a parent.
     pub types: ListDifference,
     /// Predicates, each with the types of its arguments.
@@ -65,13 +72,18 @@ pub struct ModelDifference {
     pub actions: ListDifference,
     /// Actions that both have, and that differ.
     pub changed: Vec<ActionDifference>,
+    /// How much they were learned from, in words: only what differs. Models may be the same all the same.
+    #[serde(skip_serializing_if = "ListDifference::is_empty")]
+    #[cfg_attr(feature = "schema", schemars(default))]
+    pub evidence: ListDifference,
 }
 
-/// Compares two models: actions of one skill are the same where their effects, renamed, have most in common. `folded` takes
-/// names that differ in case only for the same, as PDDL does. The time is quadratic in the actions of one skill, and
-/// factorial in the parameters that the call does not name, of which at most six are renamed.
-pub fn difference(first: &ActionModel, second: &ActionModel, folded: bool) -> ModelDifference {
-    let fold = |text: String| if folded { text.to_lowercase() } else { text };
+/// Compares two models: actions of one skill are the same where their effects, renamed, have most in common. `beside_pddl`
+/// takes names that differ in case only for the same, as PDDL does, and leaves out who acts, which PDDL does not say. The
+/// time is quadratic in the actions of one skill, and factorial in the parameters that the call does not name, of which at
+/// most six are renamed.
+pub fn difference(first: &ActionModel, second: &ActionModel, beside_pddl: bool) -> ModelDifference {
+    let fold = |text: String| if beside_pddl { text.to_lowercase() } else { text };
     let compare = |list: fn(&ActionModel) -> Vec<String>| {
         let set = |model| list(model).into_iter().map(fold).collect();
         ListDifference::of(&set(first), &set(second))
@@ -87,14 +99,29 @@ pub fn difference(first: &ActionModel, second: &ActionModel, folded: bool) -> Mo
     };
     let mut found = ModelDifference {
         same: false,
+        actor: if beside_pddl { ListDifference::default() } else { compare(actor) },
         types: compare(types),
         predicates: compare(predicates),
         axioms: compare(axioms),
         actions,
         changed: pairs.iter().map(|pair| changes(pair, first, second, &fold)).filter(|c| !c.is_empty(&fold)).collect(),
+        evidence: ListDifference::default(),
     };
     found.same = found == ModelDifference::default();
     found
+}
+
+/// Compares how much two models were learned from. In time of the evidence.
+pub fn evidence_difference(first: &Evidence, second: &Evidence) -> ListDifference {
+    let amounts = |evidence: &Evidence| {
+        let total = evidence.total();
+        BTreeSet::from([
+            count(evidence.sources().len() as u64, "demonstration"),
+            count(total.transitions, "transition"),
+            count(total.failures(), "failure"),
+        ])
+    };
+    ListDifference::of(&amounts(first), &amounts(second))
 }
 
 impl ListDifference {
@@ -120,6 +147,10 @@ impl ActionDifference {
         let parts = [&self.parameters, &self.needs, &self.adds, &self.deletes, &self.costs];
         parts.iter().all(|part| part.is_empty()) && fold(self.first.clone()) == fold(self.second.clone())
     }
+}
+
+fn actor(model: &ActionModel) -> Vec<String> {
+    vec![model.actor.map_or_else(|| "none".to_owned(), |ty| model.hierarchy.name(ty).to_string())]
 }
 
 fn types(model: &ActionModel) -> Vec<String> {
@@ -213,11 +244,12 @@ fn changes(
 
 /// The difference in lines: `-` before what only the first has, `+` before what only the second has.
 pub fn difference_lines(found: &ModelDifference) -> Vec<Text> {
-    if found.same {
-        return vec![Text::new().with(Role::Good, "the same")];
-    }
     let mut lines = Vec::new();
+    if found.same {
+        lines.push(Text::new().with(Role::Good, "the same"));
+    }
     let parts = [
+        ("actor", &found.actor),
         ("types", &found.types),
         ("predicates", &found.predicates),
         ("axioms", &found.axioms),
@@ -240,6 +272,7 @@ pub fn difference_lines(found: &ModelDifference) -> Vec<Text> {
             push_list(&mut lines, 2, what, list);
         }
     }
+    push_list(&mut lines, 0, "learned from", &found.evidence);
     lines
 }
 
