@@ -12,20 +12,23 @@ many games are won, and how many steps failed on the way: refused by the game, o
 """
 
 import json
+import sys
 from pathlib import Path
 
 from cooking_game import CookingGame
-from measuring import Measure, Setting, Task, explain, options, table
-from serving import record
+from measuring import Measure, Setting, Task, explain, options, parse, table
+from serving import reaches, record
 
 HERE = Path(__file__).parent
 
 
 def main() -> None:
-    arguments = options(__doc__, "target/worlds/cooking").parse_args()
+    arguments = parse(options(__doc__), "cooking")
     games = json.loads((HERE / "cooking.json").read_text())
     count = {"demonstrations": 4, "unseen": 1} if arguments.quick else {"demonstrations": 8, "unseen": 10}
-    kept = arguments.folder.parent / "cooking-games"
+    kept = (
+        arguments.folder.parent / "cooking-games"
+    )  # Making them takes longer than all else, so that a quick look keeps them, too.
     game = CookingGame(kept)
 
     demonstrations = []
@@ -42,6 +45,8 @@ def main() -> None:
         for seed in seeds[: count["unseen"]]:
             scenario = {**games["settings"], "split": split}
             game.reset(seed, scenario)
+            if not reaches(game, game.walkthrough(), game.goal()):
+                sys.exit(f"{split}, seed {seed}: the game's own walkthrough does not win it")
             tasks.append(Task(f"{split}_{seed}", split, game.goal(), scenario, seed))
 
     measure = Measure(arguments, [str(HERE / "cooking_game.py"), str(kept)], game.types)

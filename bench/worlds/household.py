@@ -15,6 +15,7 @@ begins as the program begins, and its goal is what became of the object that the
 
 import json
 import random
+import sys
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from itertools import islice
@@ -22,8 +23,8 @@ from pathlib import Path
 from typing import Any
 
 from household_graph import Household, calls, household, programs
-from measuring import Measure, Setting, Task, explain, options, table
-from serving import record
+from measuring import Measure, Setting, Task, explain, options, parse, table
+from serving import reaches, record
 
 HERE = Path(__file__).parent
 LIST = HERE / "household.json"
@@ -83,9 +84,9 @@ def demonstrate(folder: Path, names: Iterable[str]) -> list[Path]:
 
 
 def main() -> None:
-    parser = options(__doc__, "target/worlds/household")
+    parser = options(__doc__)
     parser.add_argument("--choose", action="store_true", help="draw the tasks anew, and do no more")
-    arguments = parser.parse_args()
+    arguments = parse(parser, "household")
     listed: dict[str, Any] = json.loads(LIST.read_text())
     if arguments.choose:
         listed["tasks"] = list(choose(listed["held_out"]))
@@ -107,10 +108,13 @@ def main() -> None:
         if not arguments.quick or number % 12 == 0:
             home.reset(0, {"program": each["program"]})
             goal = goal_of(each["kind"], each["thing"], home.ids[home.character])
+            if not reaches(home, home.calls(each["program"]), [goal]):
+                sys.exit(f"{each['program']}: the program itself does not reach {goal}")
             name = f"{each['kind'].replace(' ', '_')}-{each['thing']}-{each['program']}"
             tasks.append(Task(name, each["kind"], [goal], {"program": each["program"]}))
 
-    measure = Measure(arguments, [str(HERE / "household_graph.py")], lambda: types(programs()))
+    used = [*shown, *(task.scenario["program"] for task in tasks)]
+    measure = Measure(arguments, [str(HERE / "household_graph.py")], lambda: types(used))
     settings = [
         Setting(f"{len(demonstrations)} programs{', imagining' if imagining else ''}", demonstrations, imagining)
         for imagining in ((), ("--imagine",))

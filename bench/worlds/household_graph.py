@@ -8,9 +8,10 @@ A scenario names one of the package's programs, `{"program": "file1003_2"}`: the
 ran. A call is an action of such a program with the character before its objects, `[GRAB] <mouse> (1.413)` is
 `grab(character_65, mouse_413)`. Refusals are the simulator's own words.
 
-Nodes are objects of their class; their states and properties are atoms of one place, the edges of the graph atoms of two.
-Only the character's CLOSE and FACING are told: between things there are some 5,000 of them in a household, which no action changes
-but by way of the character. `--whole` tells them, too.
+Nodes are objects of their class; their states and properties are atoms of one place, the edges of the graph atoms of two. Told
+are the character, the rooms, the doors, the things of the program, and what these are on and in: some ten of 290 things, since
+with all of them (`--whole`) too many actions would be possible for a plan to be found. Of CLOSE and FACING only the character's are
+told: between things there are some 5,000 of them, which no action changes but by way of the character.
 """
 
 import functools
@@ -23,13 +24,15 @@ from pathlib import Path
 from typing import Any
 
 from serving import Call, serve
-from virtualhome_eval.simulation.evolving_graph.environment import EnvironmentGraph, EnvironmentState
+from virtualhome_eval.simulation.evolving_graph.environment import EnvironmentGraph, EnvironmentState, Relation
 from virtualhome_eval.simulation.evolving_graph.execution import ScriptExecutor
 from virtualhome_eval.simulation.evolving_graph.scripts import Action, Script, ScriptLine, ScriptObject
 
 LINE = re.compile(r"\[(\w+)\]")
 OBJECT = re.compile(r"<(.+?)> \(\d+\.(\d+)\)")
 OF_PLACE = ("CLOSE", "FACING")  # Relations that are told of the character only.
+RESTING = ("ON", "INSIDE")
+SHELL = ("Floor", "Floors", "Walls", "Ceiling")
 
 
 @functools.cache
@@ -77,23 +80,32 @@ class Household:
         self.ids = {node.id: f"{node.class_name}_{node.id}" for node in self.graph.get_nodes()}
         self.nodes = {name: number for number, name in self.ids.items()}
         self.character = next(self.graph.get_nodes_by_attr("class_name", "character")).id
+        self.told = set(self.ids) if self.whole else self.view(scenario["program"])
+
+    def view(self, program: str) -> set[int]:
+        """What a program is about."""
+        everywhere = (node.id for node in self.graph.get_nodes() if node.category in ("Rooms", "Doors"))
+        told = {self.character, *everywhere}
+        beside = [number for _, objects in calls(program) for _, number in objects]
+        while beside:
+            number = beside.pop()
+            if number not in told:
+                told.add(number)
+                below = (self.graph.get_node_ids_from(number, Relation[name]) for name in RESTING)
+                beside += (each for ids in below for each in ids if self.graph.get_node(each).category not in SHELL)
+        return told
 
     def state(self) -> dict[str, Any]:
-        graph = self.now.to_dict()
+        nodes = [self.now.get_node(number) for number in sorted(self.told)]
         atoms = {
-            f"{word.lower()}({self.ids[node['id']]})"
-            for node in graph["nodes"]
-            for word in node["states"] + node["properties"]
+            f"{word.name.lower()}({self.ids[node.id]})" for node in nodes for word in node.states | node.properties
         }
-        atoms |= {
-            f"{edge['relation_type'].lower()}({self.ids[edge['from_id']]},{self.ids[edge['to_id']]})"
-            for edge in graph["edges"]
-            if self.whole or edge["relation_type"] not in OF_PLACE or edge["from_id"] == self.character
-        }
-        return {
-            "objects": {self.ids[node["id"]]: node["class_name"] for node in graph["nodes"]},
-            "atoms": sorted(atoms),
-        }
+        for node in nodes:
+            for relation in Relation:
+                if relation.name not in OF_PLACE or node.id == self.character:
+                    others = self.told.intersection(self.now.get_node_ids_from(node.id, relation))
+                    atoms |= {f"{relation.name.lower()}({self.ids[node.id]},{self.ids[other]})" for other in others}
+        return {"objects": {self.ids[node.id]: node.class_name for node in nodes}, "atoms": sorted(atoms)}
 
     def calls(self, program: str) -> Iterator[Call]:
         for name, objects in calls(program):
@@ -109,7 +121,8 @@ class Household:
         objects = [ScriptObject(self.graph.get_node(number).class_name, number) for number in numbers]
         executor = ScriptExecutor(self.graph, {})
         try:
-            done, self.now = executor.execute_one_step(Script([ScriptLine(action, objects, 0)]), self.now)
+            script = Script([ScriptLine(action, objects, 0)])
+            done, self.now = executor.execute_one_step(script, self.now, in_place=True)
         except AssertionError as error:
             return str(error)
         if done:

@@ -165,19 +165,23 @@ def solved(rows: Sequence[dict[str, Any]]) -> str:
     return f"{sum(row['solved'] for row in rows)}/{len(rows)}"
 
 
-def options(description: str | None, folder: str) -> argparse.ArgumentParser:
+def options(description: str | None) -> argparse.ArgumentParser:
     """The options that both measures have."""
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("typelift", help="the program, such as target/release/typelift")
-    parser.add_argument(
-        "--folder", type=Path, default=Path(folder), help="what is measured, to go on with [%(default)s]"
-    )
+    parser.add_argument("--folder", type=Path, help="what is measured, to go on with [target/worlds/…]")
     parser.add_argument("--quick", action="store_true", help="few tasks, to see that it works")
     parser.add_argument("--task-limit", type=int, default=120, metavar="SECONDS", help="of one task [%(default)s]")
-    parser.add_argument(
-        "--explain", action="store_true", help="say of each task why it was not solved, and what failed"
-    )
+    parser.add_argument("--explain", action="store_true", help="say why tasks were not solved, and what failed")
     return parser
+
+
+def parse(parser: argparse.ArgumentParser, name: str) -> argparse.Namespace:
+    """What the user wants. A quick look has a folder of its own, so that no memory is of both."""
+    arguments = parser.parse_args()
+    if arguments.folder is None:
+        arguments.folder = Path("target", "worlds", f"{name}-quick" if arguments.quick else name)
+    return arguments
 
 
 def explain(results: Sequence[dict[str, Any]]) -> Iterator[str]:

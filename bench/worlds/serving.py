@@ -48,6 +48,15 @@ def serve(world: World) -> None:
         print(json.dumps(answer), file=answers, flush=True)
 
 
+def reaches(world: World, calls: Iterable[Call], goal: list[str]) -> bool:
+    """Whether a goal comes about on the way, as the world stands."""
+    for name, args in calls:
+        world.act(name, args)
+        if set(goal) <= set(world.state()["atoms"]):
+            return True
+    return False
+
+
 def record(world: World, path: Path, goal: list[str], calls: Iterable[Call]) -> None:
     """Writes a demonstration: the calls, one after the other, from where the world stands. What is refused is recorded, too."""
     lines: list[dict[str, Any]] = [{"format": "trace/1", "task": path.stem, "goal": goal}, {"state": world.state()}]
