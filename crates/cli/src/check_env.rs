@@ -10,7 +10,6 @@ use typelift::world::{BrokenOff, InspectOptions, Inspection, Reset, World, inspe
 use crate::environment::{Timeouts, start};
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::files::warn;
 use crate::limits::Interrupt;
 use crate::quantities::parse_whole;
 use crate::style::painted;
@@ -69,12 +68,10 @@ impl CheckEnv {
         let interrupt = Interrupt::install()?;
         let types = self.types.as_deref().map(read_types).transpose()?;
         let hierarchy = types.as_ref().map(|types| types.extend(&Hierarchy::default())).transpose()?;
-        if let (Some(types), false) = (&types, quiet) {
-            warn(types.warnings().iter());
-        }
         let task = self.task.as_deref().map(read_task).transpose()?.unwrap_or_default();
         let options = InspectOptions {
             hierarchy,
+            doubtful_parents: types.map(|types| types.doubtful_parents()).unwrap_or_default(),
             parse: ParseConfig {
                 ignore: self.ignore.iter().map(|name| Symbol::new(name)).collect(),
                 ..ParseConfig::default()

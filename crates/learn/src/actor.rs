@@ -226,6 +226,7 @@ mod tests {
         assert_eq!(with("close(gate1)"), expected("close", true), "something else acts");
         assert_eq!(with("push(box1,shelf1)"), expected("push", true), "what is acted on elsewhere acts");
         assert_eq!(with("give(robot1,robot2)"), expected("give", false), "who acts is acted on");
+        assert_eq!(with("wait()"), expected("wait", true), "nothing is named");
         assert_eq!(with("tow(gate1,robot1)"), expected("tow", false));
         let robot_alone = [robot[0], robot[1], "close(robot1,gate1)"];
         assert_eq!(but_for(&robot_alone), None, "there is one");

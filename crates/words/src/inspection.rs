@@ -51,7 +51,8 @@ pub struct TriedView {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct FindingView {
-    /// The request whose answer shows it: `reset`, `observe`, or the action. `state` if all states together do.
+    /// The request whose answer shows it: `reset`, `observe`, or the action. `state` if all states together do,
+    /// `types` if the file of types does.
     pub place: String,
     /// The kind of problem, in one word.
     pub problem: &'static str,

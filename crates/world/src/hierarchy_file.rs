@@ -6,13 +6,35 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};
-use typelift_model::{ArgumentTypes, Hierarchy, ROOT, Symbol, TypeId, check_name, did_you_mean};
+use thiserror::Error;
+use typelift_model::{ArgumentTypes, Hierarchy, ROOT, Symbol, TypeId, check_name, did_you_mean, nearest};
 use typelift_pddl::{
     Declarations, Document, ObjectDeclaration, PddlError, Span, TypeEdge, hierarchy_from_types,
     read_declared_predicates,
 };
 
 use crate::{FileError, json, read_text};
+
+/// A parent that is declared nowhere, with a name like that of a type that is.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("`{parent}`, of which `{child}` is a kind, is declared nowhere")]
+pub struct DoubtfulParent {
+    /// The parent.
+    pub parent: Symbol,
+    /// The first type below it.
+    pub child: Symbol,
+    /// The declared type that was probably meant.
+    pub near: Symbol,
+    /// Where the child is declared.
+    span: Span,
+}
+
+impl DoubtfulParent {
+    /// What to do about it.
+    pub fn hint(&self) -> String {
+        format!("Did you mean `{}`?", self.near)
+    }
+}
 
 /// The types that a file declares, with their places in it; of a domain its name, constants and predicates, too.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -99,20 +121,25 @@ impl TypesFile {
 
     /// Parents that are declared nowhere themselves, as they need not be, and whose names are nearly those of types that
     /// are: probably slips.
-    pub fn warnings(&self) -> Vec<FileError> {
+    pub fn doubtful_parents(&self) -> Vec<DoubtfulParent> {
         let declared: BTreeSet<&Symbol> = self.edges.iter().map(|edge| &edge.child).collect();
         let mut told = BTreeSet::from([Symbol::new(ROOT)]);
-        let mut warnings = Vec::new();
-        for TypeEdge { child, parent, span } in self.edges.iter().filter(|edge| !declared.contains(&edge.parent)) {
-            if !told.insert(parent.clone()) {
-                continue;
-            }
-            let Some(hint) = did_you_mean(parent.as_str(), declared.iter().copied()) else { continue };
-            let message = format!("`{parent}`, of which `{child}` is a kind, is declared nowhere");
-            let error = PddlError::new(&self.text, *span, message).with_hint(hint);
-            warnings.push(FileError::from_pddl(&self.path, &self.text, error));
-        }
-        warnings
+        let undeclared = self.edges.iter().filter(|edge| !declared.contains(&edge.parent));
+        let once = undeclared.filter(|edge| told.insert(edge.parent.clone()));
+        let doubtful = once.filter_map(|TypeEdge { child, parent, span }| {
+            let near = nearest(parent.as_str(), declared.iter().copied())?.clone();
+            Some(DoubtfulParent { parent: parent.clone(), child: child.clone(), near, span: *span })
+        });
+        doubtful.collect()
+    }
+
+    /// What is probably not meant in it, with places.
+    pub fn warnings(&self) -> Vec<FileError> {
+        let located = |doubtful: DoubtfulParent| {
+            let error = PddlError::new(&self.text, doubtful.span, doubtful.to_string());
+            FileError::from_pddl(&self.path, &self.text, error.with_hint(doubtful.hint()))
+        };
+        self.doubtful_parents().into_iter().map(located).collect()
     }
 
     /// `base` with these types.

@@ -105,7 +105,14 @@ pub(crate) fn check_format(found: &str, read: &str) -> Result<(), (String, Optio
         let what = format!("this is a file of format `{found}`; this version of typelift reads `{read}`");
         Err((what, Some("Use the typelift that wrote it, or write it again.".to_owned())))
     } else {
-        Err((format!("this is a file of format `{found}`, not a {}", kind(read)), None))
+        let form = match kind(read).as_str() {
+            "task" => {
+                Some(r#"A task is {"format":"task/1","goal":["on_holds(cup_1,tray_1)"]}, with a state to plan from."#)
+            }
+            "trace" => Some(r#"A trace begins with the line {"format":"trace/1"}; states and actions follow in turn."#),
+            _ => None,
+        };
+        Err((format!("this is a file of format `{found}`, not a {}", kind(read)), form.map(str::to_owned)))
     }
 }
 

@@ -38,7 +38,7 @@ pub use entity_line::UnreadKey;
 pub use environment::{Acted, Reset, World, WorldError, instance_of};
 pub use file_error::FileError;
 pub use goal_literals::WrittenGoal;
-pub use hierarchy_file::{TypesFile, hierarchy_from_text, read_hierarchy, read_types};
+pub use hierarchy_file::{DoubtfulParent, TypesFile, hierarchy_from_text, read_hierarchy, read_types};
 pub use inspection::{BrokenOff, Change, Finding, InspectOptions, Inspection, Problem, Tried, inspect};
 pub use left_out::LeftOut;
 pub use line_reader::LINE_LIMIT;

@@ -26,12 +26,14 @@ fn what_hurts_is_said_with_its_place_and_a_hint() {
     let folder = Folder::new();
     folder.write("pump.sh", PUMP);
     folder.write("types.json", r#"{"pump": "machine", "tank": "object"}"#);
+    folder.write("slip.json", r#"{"machine": "object", "Pump": "machin", "tank": "object"}"#);
     folder.write("bad.json", r#"{"pump": 3}"#);
     folder.write("task.json", r#"{"format":"task/1","goal":[],"seed":7}"#);
     let mut transcript = Transcript::default();
     for (code, command) in [
         (12, "check-env 'sh pump.sh' --types types.json --act 'start(pump_1)'"),
         (12, "check-env 'sh pump.sh' --types types.json --json"),
+        (12, "check-env 'sh pump.sh' --types slip.json"),
         (12, "check-env 'sh pump.sh' --ignore flow --task task.json"),
         (31, "check-env 'sh pump.sh' --types bad.json"),
         (35, "check-env true"),

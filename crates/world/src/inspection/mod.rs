@@ -20,7 +20,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use thiserror::Error;
 use typelift_model::{GroundCall, Hierarchy, ParseConfig, ROOT, State, Symbol, nearest};
 
-use crate::{Parser, Reset, Scene, UnreadKey, World, WorldError};
+use crate::{DoubtfulParent, Parser, Reset, Scene, UnreadKey, World, WorldError};
 use comparing::compare;
 use sightings::Sightings;
 
@@ -34,6 +34,8 @@ const OBSERVATIONS: usize = 5;
 pub struct InspectOptions {
     /// The types that its entities are to have; any, if there are none.
     pub hierarchy: Option<Hierarchy>,
+    /// What is doubtful about them.
+    pub doubtful_parents: Vec<DoubtfulParent>,
     /// What is left out of the states, as in learning.
     pub parse: ParseConfig,
     /// How it is set up.
@@ -89,6 +91,9 @@ pub struct Tried {
 /// [`BrokenOff`] if the environment itself fails, with what was found until then.
 pub fn inspect(world: &mut dyn World, options: &InspectOptions) -> Result<Inspection, BrokenOff> {
     let mut inspector = Inspector::new(options);
+    for parent in &options.doubtful_parents {
+        inspector.find("types", Problem::DoubtfulParent(parent.clone()));
+    }
     let tried = inspector.try_all(world, options);
     inspector.note_unread_keys(world.unread_keys());
     match tried {

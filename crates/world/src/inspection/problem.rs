@@ -6,7 +6,7 @@ use std::fmt;
 use thiserror::Error;
 use typelift_model::{GroundAtom, Symbol};
 
-use crate::{LeftOut, ParseError};
+use crate::{DoubtfulParent, LeftOut, ParseError};
 
 /// Atoms that are listed; of more it is said how many there are.
 const LISTED: usize = 3;
@@ -58,7 +58,8 @@ impl fmt::Display for Change {
 /// Something that was found, and where.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Finding {
-    /// The request whose answer shows it: `reset`, `observe`, or an action. `state` if all states together do.
+    /// The request whose answer shows it: `reset`, `observe`, or an action. `state` if all states together do, `types` if the
+    /// file of types does.
     pub place: String,
     /// What is wrong.
     pub problem: Problem,
@@ -154,6 +155,9 @@ pub enum Problem {
     /// An attribute or relation that is there at times only.
     #[error("{0}")]
     LeftOut(LeftOut),
+    /// A parent in the file of types that was probably not meant.
+    #[error("{0}")]
+    DoubtfulParent(DoubtfulParent),
     /// Two names that PDDL, and therefore a model, takes for one.
     #[error("`{one}` and `{other}` differ in case only")]
     DiffersInCase {
@@ -235,6 +239,7 @@ impl Problem {
             Self::NoSuchEntity { .. } => "no_such_entity",
             Self::NothingIgnored { .. } => "nothing_ignored",
             Self::LeftOut(_) => "left_out",
+            Self::DoubtfulParent(_) => "doubtful_parent",
             Self::DiffersInCase { .. } => "differs_in_case",
             Self::MixedRelation { .. } => "mixed_relation",
             Self::ListOfOne { .. } => "list_of_one",
@@ -253,6 +258,7 @@ impl Problem {
                 | Self::NoSuchEntity { .. }
                 | Self::NothingIgnored { .. }
                 | Self::LeftOut(_)
+                | Self::DoubtfulParent(_)
                 | Self::ListOfOne { .. }
                 | Self::FewNumbers { .. }
                 | Self::ManyWords { .. }
@@ -300,6 +306,7 @@ impl Problem {
             Self::NoSuchEntity { .. } => "Try it with one that the state shows.".to_owned(),
             Self::NothingIgnored { .. } => "Is it spelt as the states spell it?".to_owned(),
             Self::LeftOut(left_out) => left_out.hint(),
+            Self::DoubtfulParent(parent) => parent.hint(),
             Self::DiffersInCase { .. } => {
                 "Spell it alike everywhere: names that differ in case only are refused in a model.".to_owned()
             }
