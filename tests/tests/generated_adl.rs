@@ -17,7 +17,9 @@ use typelift::pddl::{
     Atoms, Domain, Meaning, PddlEffect, PddlTerm, Problem, compile_domain, compile_problem, read_domain, read_plan,
     read_problem,
 };
-use typelift::plan::{self, Explanation, Obstacle, Outcome, Restrictions, Strategy, UnreachableGoal, Unreached};
+use typelift::plan::{
+    self, Conflict, Explanation, Obstacle, Outcome, Restrictions, Strategy, UnreachableGoal, Unreached,
+};
 use typelift_tests::adl_tasks::AdlTask;
 
 /// Larger tasks are left out.
@@ -309,13 +311,39 @@ impl Known<'_> {
                 assert!(self.space.states.iter().all(all), "{text}\n{}", self.texts);
                 "never deleted"
             }
-            Explanation::NotTogether { missing } => {
+            Explanation::NotTogether { missing, conflict } => {
                 let lacks_all =
                     |state: &Atoms| missing.iter().all(|(said, positive)| self.said_holds(said, state) != *positive);
                 assert!(self.space.states.iter().any(lacks_all), "{text}\n{}", self.texts);
-                "not together"
+                let Some(conflict) = conflict else { return "not together" };
+                self.check_conflict(conflict);
+                "in conflict"
             }
             Explanation::ToldByPlanner => panic!("{text}\n{}", self.texts),
+        }
+    }
+
+    /// Nothing leads to the other atom once the one was reached, and what that takes excludes the other.
+    fn check_conflict(&self, Conflict { one, other, lost, price }: &Conflict<String>) {
+        let holding =
+            |said: &str| -> Vec<bool> { self.space.states.iter().map(|state| self.said_holds(said, state)).collect() };
+        let (one, of_other) = (holding(one), holding(other));
+        let lost = lost.as_ref().map(|need| holding(&need.atom));
+        let mut after: BTreeSet<usize> = (0..one.len()).filter(|&state| one[state]).collect();
+        let mut open: Vec<usize> = after.iter().copied().collect();
+        while let Some(state) = open.pop() {
+            let is_needed = lost.as_ref().is_some_and(|lost| lost[state]);
+            assert!(!is_needed && !(one[state] && of_other[state]), "{}", self.texts);
+            for &(_, next, _) in &self.space.steps[state] {
+                assert!(of_other[state] || !of_other[next], "{}", self.texts);
+                if after.insert(next) {
+                    open.push(next);
+                }
+            }
+        }
+        if price.atom != *other {
+            let price = holding(&price.atom);
+            assert!((0..price.len()).all(|state| !price[state] || !of_other[state]), "{}", self.texts);
         }
     }
 

@@ -1,15 +1,20 @@
 //! Why there is no plan, in the words of the domain and the problem.
 
 use typelift::agent::{Options, propose};
-use typelift::model::Budget;
+use typelift::model::{ActionModel, Budget, Task};
 use typelift::plan::{Outcome, Restrictions};
 use typelift::world::DomainFile;
 
-/// What is said of a problem without a plan.
-fn reason(domain: &str, problem: &str) -> String {
+/// A domain and a problem, to plan with.
+fn compiled(domain: &str, problem: &str) -> (ActionModel, Task) {
     let domain = DomainFile::from_text("domain".as_ref(), format!("(define (domain d) {domain})")).expect("a domain");
     let problem = format!("(define (problem p) (:domain d) {problem})");
-    let (model, task) = domain.problem_from_text("problem".as_ref(), &problem).expect("a problem");
+    domain.problem_from_text("problem".as_ref(), &problem).expect("a problem")
+}
+
+/// What is said of a problem without a plan.
+fn reason(domain: &str, problem: &str) -> String {
+    let (model, task) = compiled(domain, problem);
     let budget = Budget::with_expansions(10_000);
     let proposal = propose(&model, &task, &Restrictions::default(), &Options::default(), &budget).expect("an answer");
     assert_eq!(proposal.outcome, Outcome::Unsolvable);
@@ -114,4 +119,51 @@ fn one_object_in_two_places_is_not_said_to_be_any_two() {
         "sailed(s) cannot be reached: the nearest action is sail, but it needs next-to(any crate,the same crate), which \
          cannot be reached"
     );
+}
+
+/// What is wrapped stays where it is, and is wrapped at the bench only.
+const BENCH: &str = "(:types crate place) (:constants bench dock - place)
+    (:predicates (at ?c - crate ?p - place) (bare ?c - crate) (wrapped ?c - crate))
+    (:action carry :parameters (?c - crate ?from ?to - place) :precondition (and (at ?c ?from) (bare ?c))
+        :effect (and (at ?c ?to) (not (at ?c ?from))))
+    (:action wrap :parameters (?c - crate) :precondition (and (at ?c bench) (bare ?c))
+        :effect (and (wrapped ?c) (not (bare ?c))))";
+
+const WRAPPED_AND_SHIPPED: &str =
+    "(:objects a b c - crate) (:init (at a bench) (bare a) (at b bench) (bare b) (at c dock) (bare c))
+     (:goal (and (wrapped a) (at a dock)))";
+
+#[test]
+fn goals_that_undo_each_other_are_said_to() {
+    assert_eq!(
+        reason(BENCH, WRAPPED_AND_SHIPPED),
+        "no state that can be reached satisfies the goal; at best this is missing: wrapped(a)\n\
+         wrapped(a) and at(a,dock) undo each other: once wrapped(a) is reached, at(a,dock) cannot be any more, since carry \
+         needs bare(a); and wrap, which adds wrapped(a), needs at(a,bench), which never holds together with at(a,dock)"
+    );
+    let emptied = "(:types crate) (:predicates (full ?c - crate) (sealed ?c - crate))
+        (:action seal :parameters (?c - crate) :precondition (full ?c) :effect (and (sealed ?c) (not (full ?c))))
+        (:action stir :parameters (?c - crate) :effect (and (sealed ?c) (not (full ?c))))";
+    let both = "(:objects a - crate) (:init (full a)) (:goal (and (sealed a) (full a)))";
+    assert!(reason(emptied, both).starts_with("sealed(a) and full(a) cannot hold together"), "known before any search");
+}
+
+/// What can be unwrapped again may be carried after all.
+#[test]
+fn goals_that_can_be_had_together_are_not_said_to_undo_each_other() {
+    let cut = "(:action cut :parameters (?c - crate) :precondition (wrapped ?c) :effect (bare ?c))";
+    let (model, task) = compiled(&format!("{BENCH} {cut}"), WRAPPED_AND_SHIPPED);
+    let budget = Budget::with_expansions(10_000);
+    let proposal = propose(&model, &task, &Restrictions::default(), &Options::default(), &budget).expect("an answer");
+    assert!(matches!(proposal.outcome, Outcome::Solved(plan) if plan.len() == 3));
+}
+
+/// A search that may not go on for long says no less.
+#[test]
+fn goals_that_undo_each_other_need_no_search_to_the_end() {
+    let (model, task) = compiled(BENCH, WRAPPED_AND_SHIPPED);
+    let budget = Budget::with_expansions(2);
+    let proposal = propose(&model, &task, &Restrictions::default(), &Options::default(), &budget).expect("an answer");
+    assert_eq!(proposal.outcome, Outcome::Unsolvable);
+    assert!(proposal.explain().to_string().contains("undo each other"));
 }

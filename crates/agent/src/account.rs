@@ -1,7 +1,7 @@
 //! The account of an episode: what was tried, what failed and was excluded and why, and how it ended.
 
 use serde::{Deserialize, Serialize};
-use typelift_model::{GoalTypeMismatch, GroundCall, Plan, Stop, Symbol};
+use typelift_model::{GoalTypeMismatch, GroundAtom, GroundCall, Plan, Stop, Symbol};
 use typelift_plan::Explanation;
 use typelift_world::Verdict;
 
@@ -62,10 +62,30 @@ pub struct Failure {
     /// What was expected of it and did not come about: what was to hold, and after `not` what was to hold no longer.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub missed: Vec<String>,
+    /// What it added.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub added: Vec<GroundAtom>,
+    /// What it deleted.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub deleted: Vec<GroundAtom>,
     /// Whether it rests on an imagined action.
     pub imagined: bool,
     /// What is to blame, as far as was known then, and excluded therefore.
     pub suspects: Vec<Suspect>,
+}
+
+impl Failure {
+    /// The step and what came of it, in words: `wrap(drum_1): "a drum rolls off"`.
+    pub fn in_words(&self) -> String {
+        let Self { call, result, reason, missed, added, deleted, .. } = self;
+        match (result, reason) {
+            (StepResult::Rejected, None) => format!("{call} was rejected"),
+            (StepResult::Rejected, Some(reason)) => format!("{call} was rejected: {reason}"),
+            (StepResult::Tried(Verdict::Refused), Some(reason)) => format!("{call}: \"{reason}\""),
+            (result, Some(reason)) => format!("{call}: {}: \"{reason}\"", result.in_words(missed, added, deleted)),
+            (result, None) => format!("{call}: {}", result.in_words(missed, added, deleted)),
+        }
+    }
 }
 
 /// A step that was seen to be done although the environment did not say so.

@@ -216,11 +216,21 @@ impl Episode {
     ) {
         let (Some(execution), Some(deed)) = (&self.execution, self.deed(before)) else { return };
         let Some(step) = execution.step().cloned() else { return };
-        let why = match (result, &reason) {
-            (StepResult::Rejected, None) => format!("{} was rejected", step.call),
-            (StepResult::Rejected, Some(reason)) => format!("{} was rejected: {reason}", step.call),
-            (result, reason) => format!("{} {}", step.call, reason.as_deref().unwrap_or(result.phrase())),
+        let mut failure = Failure {
+            proposal: self.account.proposals,
+            step: execution.next_step + 1,
+            action: step.action.clone(),
+            call: step.call.clone(),
+            record: matches!(result, StepResult::Tried(_)).then_some(self.account.actions),
+            result,
+            reason,
+            missed,
+            added: before.added(&self.state).cloned().collect(),
+            deleted: before.deleted(&self.state).cloned().collect(),
+            imagined: step.imagined.is_some(),
+            suspects: Vec::new(),
         };
+        let why = failure.in_words();
         let failed = Failed {
             deed,
             task: self.task,
@@ -232,23 +242,11 @@ impl Episode {
             rejected: result == StepResult::Rejected,
             reason: why.clone(),
         };
-        let failure = (self.account.proposals, execution.next_step + 1);
-        let suspects = self.experience.failed(failed);
-        for suspect in &suspects {
+        failure.suspects = self.experience.failed(failed);
+        for suspect in &failure.suspects {
             observer.event(&Event::Excluded { suspect: suspect.clone(), reason: why.clone() });
         }
-        self.account.failures.push(Failure {
-            proposal: failure.0,
-            step: failure.1,
-            action: step.action,
-            call: step.call,
-            record: matches!(result, StepResult::Tried(_)).then_some(self.account.actions),
-            result,
-            reason,
-            missed,
-            imagined: step.imagined.is_some(),
-            suspects,
-        });
+        self.account.failures.push(failure);
     }
 
     /// Plans anew: from the initial state if the world is set back, else from where it is.

@@ -139,6 +139,16 @@ impl Episode {
         &self.instance
     }
 
+    /// What is to be achieved.
+    pub fn goal(&self) -> &Goal {
+        &self.goal
+    }
+
+    /// What was observed last; no objects before the first observation.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
     /// The model of the current proposal: imagined actions added, strict if asked for. None before the first.
     pub fn planned_with(&self) -> Option<&ActionModel> {
         self.execution.as_ref().map(|execution| &*execution.model)
@@ -248,7 +258,7 @@ impl Episode {
         observer: &mut dyn Observer,
     ) -> Result<Command, EpisodeError> {
         if self.account.proposals == 0 {
-            self.goal.check(&state, &self.model.predicates)?;
+            self.goal.check(&state, &self.model.predicates, &self.model.hierarchy)?;
         }
         if let (None, Some(instance)) = (&self.options.instance, instance) {
             self.instance = instance;

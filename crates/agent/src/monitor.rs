@@ -38,6 +38,21 @@ impl StepResult {
         }
     }
 
+    /// What came of a step, in words: where only part of the expected effect happened, with what of it is missing; where
+    /// something else did, with what.
+    pub fn in_words(self, missed: &[String], added: &[GroundAtom], deleted: &[GroundAtom]) -> String {
+        let told = match self {
+            Self::Tried(Verdict::Partly) => vec![told("missing", missed)],
+            Self::Tried(Verdict::Otherwise) => vec![told("added", added), told("deleted", deleted)],
+            _ => Vec::new(),
+        };
+        let told: Vec<String> = told.into_iter().flatten().collect();
+        match told.is_empty() {
+            true => self.phrase().to_owned(),
+            false => format!("{} ({})", self.phrase(), told.join("; ")),
+        }
+    }
+
     /// The word for it wherever a program reads it: the verdict's own, as traces have it.
     pub fn word(self) -> &'static str {
         match self {
@@ -45,6 +60,19 @@ impl StepResult {
             Self::Rejected => "rejected",
         }
     }
+}
+
+/// Atoms that are told of before it is said how many more there are.
+const MOST_TOLD: usize = 6;
+
+/// `added: on(a,b), lit(c)`; nothing if there is nothing.
+fn told(what: &str, atoms: &[impl ToString]) -> Option<String> {
+    let named: Vec<String> = atoms.iter().take(MOST_TOLD).map(ToString::to_string).collect();
+    let more = match atoms.len() - named.len() {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    (!named.is_empty()).then(|| format!("{what}: {}{more}", named.join(", ")))
 }
 
 impl Serialize for StepResult {
@@ -122,6 +150,27 @@ mod tests {
     fn state(atoms: &[&str]) -> State {
         let atoms = atoms.iter().map(|text| GroundAtom::parse(text).expect("an atom")).collect();
         State { atoms, ..State::default() }
+    }
+
+    #[test]
+    fn what_came_of_a_step_says_what_is_missing_or_what_happened_instead() {
+        let atoms = |n: usize| (0..n).map(|i| GroundAtom::new("lit", vec![Symbol::from(format!("l{i}"))])).collect();
+        let (few, many): (Vec<GroundAtom>, Vec<GroundAtom>) = (atoms(1), atoms(9));
+        let missed = ["shut()".to_owned(), "not lit(l0)".to_owned()];
+        let said = |verdict, added: &[GroundAtom], deleted: &[GroundAtom]| {
+            StepResult::Tried(verdict).in_words(&missed, added, deleted)
+        };
+        assert_eq!(
+            said(Verdict::Partly, &few, &few),
+            "only part of the expected effect happened (missing: shut(), not lit(l0))"
+        );
+        assert_eq!(said(Verdict::Otherwise, &few, &[]), "something else happened (added: lit(l0))");
+        assert_eq!(
+            said(Verdict::Otherwise, &few, &many),
+            "something else happened (added: lit(l0); deleted: lit(l0), lit(l1), lit(l2), lit(l3), lit(l4), lit(l5) and 3 more)"
+        );
+        assert_eq!(said(Verdict::Otherwise, &[], &[]), "something else happened", "an entity came or went");
+        assert_eq!(said(Verdict::Nothing, &[], &[]), "nothing changed");
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use typelift_model::{ActionModel, Plan, State, Stop, Task};
+use typelift_model::{ActionModel, Budget, Plan, State, Stop, Task};
 use typelift_plan::{Outcome, Report};
 
 use crate::account::Ending;
@@ -238,6 +238,26 @@ impl Episode {
         let found = planned.as_ref().is_ok_and(|proposal| matches!(proposal.outcome, Outcome::Solved(_)));
         observer.event(&planning_ended(report, planned.as_ref().ok(), found));
         planned
+    }
+
+    /// The plan that there would be from where it is, on the terms that it has come to, if actions were imagined. Nothing is
+    /// counted, and nobody is told.
+    ///
+    /// # Errors
+    /// [`ProposeError`] as for [`propose`].
+    pub fn plan_if_imagining(
+        &self,
+        imagine: typelift_imagine::Options,
+        budget: &Budget,
+    ) -> Result<Option<Plan>, ProposeError> {
+        let terms = self.terms(self.account.resorts.counted());
+        let (task, options) = self.asked(&terms, &self.state);
+        let options = Options { imagine: Some(imagine), ..options };
+        let model = with_conditions(&self.model, &terms.conditions);
+        match propose(&model, &task, &terms.restrictions, &options, budget)?.outcome {
+            Outcome::Solved(plan) => Ok(Some(plan)),
+            _ => Ok(None),
+        }
     }
 
     /// Adds what planning took to the account.

@@ -150,17 +150,22 @@ impl Bridge {
             return Err(self.error(Failure::Over(why.clone()), None, None));
         }
         let op = body.op();
+        let step = match &body {
+            RequestBody::Act { action } => Some(action.to_string()),
+            _ => None,
+        };
         self.last_id += 1;
         let id = self.last_id;
         let sent = serde_json::to_string(&Request { id, body }).unwrap_or_default();
+        let asked = Asked { op, sent, step };
         let start = Instant::now();
-        let written = self.conversation.requests.as_ref().map(|to| to.send(format!("{sent}\n").into_bytes()));
+        let written = self.conversation.requests.as_ref().map(|to| to.send(format!("{}\n", asked.sent).into_bytes()));
         if !matches!(written, Some(Ok(()))) {
-            return Err(self.lost(op, false, &sent));
+            return Err(self.lost(&asked, false));
         }
         self.unanswered.insert(id);
         loop {
-            let text = self.hear(op, start, &sent)?;
+            let text = self.hear(&asked, start)?;
             let read = read_answer(&text);
             let answers = match &read {
                 Ok(answer) => Some(answer.id),
@@ -173,7 +178,7 @@ impl Bridge {
             }
             let failure = match read {
                 Ok(answer) if answer.id != id => Failure::WrongId { op, expected: id, found: answer.id },
-                Ok(answer) if answer.ok => return Ok((sent, Line { answer, text })),
+                Ok(answer) if answer.ok => return Ok((asked.sent, Line { answer, text })),
                 Ok(answer) => {
                     let error = answer.error.unwrap_or_else(|| "it gave no reason".to_owned());
                     Failure::Refused { op, error }
@@ -181,12 +186,13 @@ impl Bridge {
                 Err(Unreadable::NotJson(what)) => Failure::NotJson { op, what },
                 Err(Unreadable::Malformed { what, .. }) => Failure::Malformed { op, what },
             };
-            return Err(self.error(failure, Some(&sent), Some(&text)));
+            return Err(self.error(failure, Some(&asked.sent), Some(&text)));
         }
     }
 
-    /// The next line that the child sends, if it comes within the time for `op`.
-    fn hear(&mut self, op: &'static str, start: Instant, sent: &str) -> Result<Vec<u8>, BridgeError> {
+    /// The next line that the child sends, if it comes within the time for what it is asked.
+    fn hear(&mut self, asked: &Asked, start: Instant) -> Result<Vec<u8>, BridgeError> {
+        let (op, sent) = (asked.op, asked.sent.as_str());
         let limit = self.options.limit(op);
         loop {
             let left = limit.saturating_sub(start.elapsed());
@@ -198,9 +204,9 @@ impl Bridge {
                     let error = self.error(Failure::TooLong, Some(sent), Some(beginning.as_bytes()));
                     Err(self.end_with(error))
                 }
-                Ok(Heard::InputClosed) => Err(self.lost(op, false, sent)),
-                Ok(Heard::OutputClosed) | Err(RecvTimeoutError::Disconnected) => Err(self.lost(op, true, sent)),
-                Err(RecvTimeoutError::Timeout) if had_ended => Err(self.lost(op, true, sent)),
+                Ok(Heard::InputClosed) => Err(self.lost(asked, false)),
+                Ok(Heard::OutputClosed) | Err(RecvTimeoutError::Disconnected) => Err(self.lost(asked, true)),
+                Err(RecvTimeoutError::Timeout) if had_ended => Err(self.lost(asked, true)),
                 Err(RecvTimeoutError::Timeout) if left > GLANCE => continue,
                 Err(RecvTimeoutError::Timeout) => {
                     let error = self.error(Failure::TimedOut { op, limit }, Some(sent), None);
@@ -211,7 +217,8 @@ impl Bridge {
     }
 
     /// The child can no longer be talked to: finds out whether it ended, and sees to it that it has.
-    fn lost(&mut self, op: &'static str, output: bool, sent: &str) -> BridgeError {
+    fn lost(&mut self, asked: &Asked, output: bool) -> BridgeError {
+        let op = asked.op;
         let ended = self.process.wait(LAST_WORDS);
         let status = self.process.end(GRACE);
         let failure = match status {
@@ -219,7 +226,8 @@ impl Bridge {
             _ if ended => Failure::Died { op, status },
             _ => Failure::Closed { op, output },
         };
-        let error = self.error(failure, Some(sent), None);
+        // There is no answer to hold against the request: the step says more than the line that tells of it.
+        let error = self.error(failure, Some(asked.step.as_deref().unwrap_or(&asked.sent)), None);
         self.end_with(error)
     }
 
@@ -279,6 +287,14 @@ impl Bridge {
             answered => answered,
         }
     }
+}
+
+/// What is to be answered.
+struct Asked {
+    op: &'static str,
+    sent: String,
+    /// The step that is to be done, as people write it.
+    step: Option<String>,
 }
 
 /// A line that is an answer.

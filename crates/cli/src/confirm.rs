@@ -7,8 +7,8 @@ use std::time::Duration;
 
 use clap::ValueEnum;
 use typelift::agent::{Confirmation, Objection};
-use typelift::model::{ActionModel, GroundAtom, Plan, Symbol, did_you_mean};
-use typelift::words::{count, numbered_steps};
+use typelift::model::{ActionModel, GoalErrorKind, GroundAtom, OtherNotation, Plan, Symbol};
+use typelift::words::numbered_steps;
 
 use crate::failure::printable_lines;
 use crate::limits::Interrupt;
@@ -50,7 +50,7 @@ pub(crate) fn confirm(which: Option<Which>, plan: &Plan, model: &ActionModel, in
         return Confirmation::Approve;
     }
     for line in numbered_steps(plan, &model.hierarchy) {
-        anstream::eprintln!("{}", painted(&line));
+        anstream::eprintln!("  {}", painted(&line));
     }
     loop {
         anstream::eprint!("{QUESTION}");
@@ -100,7 +100,7 @@ fn read(answer: &str, plan: &Plan, model: &ActionModel, usual: usize) -> Result<
         ["broken", names @ ..] => (Some(Objection::Broken { objects: objects(names)? }), "broken".to_owned()),
         ["kind", names @ ..] => (Some(Objection::WrongKind { objects: objects(names)? }), "wrong kind".to_owned()),
         ["while", atom @ ..] => {
-            let atom = atom_of(&atom.concat(), model)?;
+            let atom = atom_of(&atom.join(" "), model)?;
             let because = format!("not while {atom}");
             (Some(Objection::While { atom }), because)
         }
@@ -115,16 +115,22 @@ fn atom_of(text: &str, model: &ActionModel) -> Result<GroundAtom, String> {
     if text.is_empty() {
         return Err("while what? Write an atom after it, such as `on(cup_1,table_1)`".to_owned());
     }
-    let atom = GroundAtom::parse(text).map_err(|error| error.to_string())?.named_as_in(&model.predicates);
-    let name = &atom.predicate;
-    match model.predicates.get(name).map(Vec::len) {
-        Some(arity) if arity == atom.arity() => Ok(atom),
-        Some(arity) => Err(format!("`{name}` takes {}, not {}", count(arity as u64, "argument"), atom.arity())),
-        None => {
-            let near = did_you_mean(name.as_str(), model.predicates.keys());
-            let near = near.map(|question| format!(". {question}")).unwrap_or_default();
-            Err(format!("the model has no predicate `{name}`{near}"))
-        }
+    let with_hint = |said: String, hint: Option<String>| match hint {
+        Some(hint) => format!("{said}. {hint}"),
+        None => said,
+    };
+    let atom = GroundAtom::parse(text)
+        .map_err(|error| {
+            let meant = OtherNotation::of(text).filter(|other| match other {
+                OtherNotation::Literals(literals) => matches!(literals[..], [(_, true)]),
+                OtherNotation::BeyondLiterals(_) => false,
+            });
+            with_hint(error.to_string(), meant.map(|other| other.hint()))
+        })?
+        .named_as_in(&model.predicates);
+    match GoalErrorKind::of_predicate(&atom, &model.predicates) {
+        None => Ok(atom),
+        Some(wrong) => Err(with_hint(wrong.said_of(&atom), wrong.hint(&atom, true))),
     }
 }
 

@@ -4,7 +4,7 @@ use std::fmt::Display;
 use std::io;
 
 use typelift::agent::{EpisodeError, ProposeError, RunError};
-use typelift::model::{ModelFileError, NameCollision, Stop, Symbol, nearest, printable};
+use typelift::model::{GoalError, GoalErrorKind, ModelFileError, NameCollision, Stop, Symbol, nearest, printable};
 use typelift::pddl::ExportError;
 use typelift::plan::ExternalFailure;
 use typelift::world::{FileError, ParseErrorKind, WorldError};
@@ -167,12 +167,19 @@ impl From<RunError> for Failure {
                 Self { hint: hint.map(str::to_owned), ..Self::new(Exit::Environment, what) }
             }
             RunError::Episode(EpisodeError::Propose(error)) => error.into(),
-            RunError::Episode(EpisodeError::Goal(error)) => {
-                let hint = error.hint();
-                Self { hint, ..Self::bad_input(error) }
-            }
+            RunError::Episode(EpisodeError::Goal(error)) => Self { hint: about_goal(&error), ..Self::bad_input(error) },
         }
     }
+}
+
+/// What to do about a goal that is none for a model.
+pub(crate) fn about_goal(error: &GoalError) -> Option<String> {
+    error.hint().or_else(|| match error.kind {
+        GoalErrorKind::UnknownPredicate { .. } => {
+            Some("`typelift show MODEL --predicates` lists what a goal may say.".to_owned())
+        }
+        _ => None,
+    })
 }
 
 /// What files and programs say is repeated, but not obeyed.

@@ -11,7 +11,7 @@ use typelift::world::{
     read_text, read_types,
 };
 
-use crate::failure::{Failure, NOT_AS_WRITTEN};
+use crate::failure::{Failure, NOT_AS_WRITTEN, about_goal};
 use crate::style::{HINT, WARNING};
 
 /// Warnings of files that are said.
@@ -169,7 +169,10 @@ impl ModelInput {
 fn not_of_model(error: &TaskError, path: &Path, parser: &Parser, is_given: bool) -> Failure {
     let told = Failure::from(error.in_file(path, parser));
     let TaskError::State(ParseError { entity, kind: ParseErrorKind::UnknownType { ty, .. } }) = error else {
-        return told;
+        return match error {
+            TaskError::Goal(error) => about_goal(error).into_iter().fold(told, Failure::with_hint),
+            _ => told,
+        };
     };
     let entity = entity.as_ref().map(|entity| format!("entity {entity}: ")).unwrap_or_default();
     let message = format!("in the state: {entity}the model does not know the type `{ty}`");

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use typelift::learn::{self, Options, evidence_of, learn_evidence};
 use typelift::model::{
-    ClusterKey, GroundAtom, LearnedModel, LiftedAtom, Observations, SourceId, Symbol, Unexplained, name_with_arity,
-    predicate_told_apart,
+    ClusterKey, GroundAtom, LearnedModel, LiftedAtom, Observations, SourceId, Symbol, Unexplained, did_you_mean,
+    name_with_arity, predicate_told_apart,
 };
 use typelift::words::{TypeNote, missing_actor, unbounded_parameters};
 use typelift::world::{
@@ -276,6 +276,12 @@ impl Learn {
         }
         for rule in &dataset.unmatched_ignores {
             anstream::eprintln!("{WARNING}warning{WARNING:#}: --ignore {rule}: there is no such attribute or relation");
+            // A rule may name a type before the attribute.
+            let name = rule.as_str().rsplit_once('.').map_or(rule.as_str(), |(_, name)| name);
+            let question = did_you_mean(name, dataset.attributes.values());
+            if let Some(question) = question.filter(|_| !dataset.attributes.contains_key(rule)) {
+                anstream::eprintln!("{HINT}hint{HINT:#}: {question}");
+            }
             if let Some(source) = dataset.attributes.get(rule) {
                 anstream::eprintln!("{HINT}hint{HINT:#}: {rule} is a predicate; it comes from {source}");
             }

@@ -22,6 +22,7 @@ mod learn_into;
 mod learn_report;
 mod limits;
 mod narrate;
+mod no_plan;
 mod overwriting;
 mod pddl;
 mod plan;

@@ -38,6 +38,11 @@ impl Narrator {
         Self { aloud, events, waiting, ..Self::default() }
     }
 
+    /// Does what is planned after an episode, and tells that it takes its time.
+    pub(crate) fn while_planning<T>(&self, plan: impl FnOnce() -> T) -> T {
+        self.waiting.during("planning", plan)
+    }
+
     /// The same budget, which is used up when an event cannot be written: nothing more is done of which nobody would know.
     pub(crate) fn bounds(&self, budget: Budget) -> Budget {
         let (is_lost, before) = (Arc::clone(&self.is_lost), budget.stop);

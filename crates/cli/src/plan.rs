@@ -16,6 +16,7 @@ use typelift::world::write_file;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::limits::{Clock, Interrupt, Limits, what_to_try};
+use crate::no_plan::{say_undemonstrated, say_what_imagining_finds, within_a_hint};
 use crate::overwriting::{Output, keep_inputs, numbered};
 use crate::plan_file::plan_file;
 use crate::planning_options::PlanningOptions;
@@ -36,9 +37,6 @@ const MOST_PLANS: u64 = 1000;
 
 /// The expansions that looking for another plan may take, if the user sets no limit.
 const EXPANSIONS_FOR_ANOTHER: u64 = 200_000;
-
-/// Nodes that are expanded to find out whether a hint holds.
-const HINT_EXPANSIONS: u64 = 20_000;
 
 /// Plan a task with a learned model, or a PDDL problem
 #[derive(Debug, clap::Args)]
@@ -156,7 +154,7 @@ impl Plan {
         out.flush()?;
         if plans.is_empty() {
             self.report_none(&last, &proposal, &model, &task, &budget, &waiting);
-            say_undemonstrated(&undemonstrated, &task);
+            say_undemonstrated(&undemonstrated, &model, &task.goal, &task.init);
         } else if !quiet {
             let limited = if self.better { &budget } else { &for_another };
             self.report_end(&last, plans.len(), limited.expansions);
@@ -333,11 +331,7 @@ impl Plan {
         }
         let imagined = waiting.during(PLANNING, || self.plan_if_imagining(outcome, model, task, budget));
         if let Some(plan) = imagined {
-            anstream::eprintln!(
-                "{HINT}hint{HINT:#}: --imagine finds a plan of {} resting on {}",
-                count(plan.len() as u64, "step"),
-                count(plan.imagined_actions() as u64, "imagined action")
-            );
+            say_what_imagining_finds(&plan);
             return;
         }
         for mismatch in proposal.goal_type_mismatches() {
@@ -356,10 +350,9 @@ impl Plan {
         if self.planning.model.imagine || *outcome != Outcome::Unsolvable {
             return None;
         }
-        let limited = Budget { expansions: Some(HINT_EXPANSIONS), ..budget.clone() };
         let options = self.planning.agent_options(false).ok()?;
         let options = Options { imagine: Some(imagine::Options::default()), ..options };
-        match propose(model, task, &Restrictions::default(), &options, &limited) {
+        match propose(model, task, &Restrictions::default(), &options, &within_a_hint(budget)) {
             Ok(Proposal { outcome: Outcome::Solved(plan), .. }) => Some(plan),
             _ => None,
         }
@@ -392,17 +385,6 @@ impl Plan {
 fn say_that_it_holds(quiet: bool) {
     if !quiet {
         anstream::eprintln!("the goal holds already: nothing is to be done");
-    }
-}
-
-/// Says of which predicates no demonstration shows how what the goal asks of them comes about.
-fn say_undemonstrated(undemonstrated: &BTreeSet<Symbol>, task: &Task) {
-    let asked = task.goal.literals().filter(|(atom, positive)| task.init.atoms.contains(*atom) != *positive);
-    let predicates: BTreeSet<&Symbol> = asked.map(|(atom, _)| &atom.predicate).collect();
-    for predicate in predicates.into_iter().filter(|predicate| undemonstrated.contains(*predicate)) {
-        anstream::eprintln!(
-            "{WARNING}note{WARNING:#}: no demonstration showed `{predicate}`: the domain declares it, and no learned action changes it"
-        );
     }
 }
 

@@ -23,6 +23,7 @@ use crate::failure::Failure;
 use crate::files::{ModelInput, TaskInput, task_name};
 use crate::limits::{Clock, Interrupt, what_to_try};
 use crate::narrate::Narrator;
+use crate::no_plan::{if_imagining, say_undemonstrated, say_what_imagining_finds};
 use crate::overwriting::{Output, keep_inputs};
 use crate::planning_options::PlanningOptions;
 use crate::quantities::parse_whole;
@@ -240,8 +241,9 @@ impl Run {
         narrator.hierarchy = model.hierarchy.clone();
         let budget = narrator.bounds(self.planning.limits.budget(*clock, interrupt, Some(EXPANSIONS)));
         let options = Options { ignores_case, ..options.clone() };
-        let mut episode = Episode::new(Arc::clone(&model), task.goal.clone(), options, experience.clone(), budget)
-            .with_values(task.values);
+        let mut episode =
+            Episode::new(Arc::clone(&model), task.goal.clone(), options, experience.clone(), budget.clone())
+                .with_values(task.values);
         let mut parser = Parser::new(model.hierarchy.clone(), input.parse()).knowing(&model.predicates);
         let mut confirm = |plan: &Plan| confirm(self.confirm, plan, &model, interrupt);
         let header = TraceHeader { task: name.clone(), goal: task.goal };
@@ -293,6 +295,12 @@ impl Run {
             && let Some(advice) = what_to_try(*stop)
         {
             anstream::eprintln!("{HINT}hint{HINT:#}: {advice}");
+        }
+        if let (Ending::NoPlan(_), false) = (&account.ending, *quiet || self.planning.json) {
+            let imagines = self.planning.model.imagine;
+            let imagined = narrator.while_planning(|| if_imagining(&episode, imagines, &budget));
+            imagined.iter().for_each(say_what_imagining_finds);
+            say_undemonstrated(&input.undemonstrated(), &model, episode.goal(), episode.state());
         }
         session.learn()?;
         Ok((!was_interrupted).then_some(account.ending))

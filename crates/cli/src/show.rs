@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use typelift::model::{ActionModel, Evidence, LearnedModel, Source, SourceId, Symbol};
+use typelift::model::{ActionModel, ActionSchema, Evidence, LearnedModel, Source, SourceId, Symbol};
 use typelift::pddl::{ExportOptions, Level, export};
 use typelift::words::{Description, count, describe_action, describe_axiom};
 
@@ -70,10 +70,7 @@ impl Show {
         let actions: Vec<Description> = match &self.action {
             None => model.actions.iter().map(|action| describe_action(action, &model, None)).collect(),
             Some(name) => {
-                let action = model.action(name).ok_or_else(|| {
-                    let names: Vec<Symbol> = model.actions.iter().map(|a| a.name.clone()).collect();
-                    Failure::bad_input(format!("the model has no action `{name}`")).with_hint(or_one_of(name, &names))
-                })?;
+                let action = model.action(name).ok_or_else(|| no_action(&model, name))?;
                 vec![describe_action(action, &model, Some(&evidence))]
             }
         };
@@ -113,6 +110,22 @@ impl Show {
         }
         Ok(Exit::Success)
     }
+}
+
+/// That there is no action of this name, with those whose call has it, or that may be meant.
+fn no_action(model: &ActionModel, name: &str) -> Failure {
+    let named = |is_meant: &dyn Fn(&ActionSchema) -> bool| -> Vec<Symbol> {
+        model.actions.iter().filter(|action| is_meant(action)).map(|action| action.name.clone()).collect()
+    };
+    let calling = named(&|action| action.call.name == *name);
+    let hint = match calling.is_empty() {
+        true => or_one_of(name, &named(&|_| true)),
+        false => {
+            let calling: Vec<&str> = calling.iter().map(Symbol::as_str).collect();
+            format!("`{name}` is what is called by {}.", calling.join(", "))
+        }
+    };
+    Failure::bad_input(format!("the model has no action `{name}`")).with_hint(hint)
 }
 
 /// What the model holds, in numbers.

@@ -22,6 +22,7 @@ mod derivation;
 mod evidence;
 mod evidence_file;
 mod goal;
+mod goal_error;
 mod goal_types;
 mod hierarchy;
 mod instantiate;
@@ -36,6 +37,7 @@ mod no_actor;
 mod numbered_keys;
 mod observations;
 mod open_file;
+mod other_notation;
 mod parse_config;
 mod pddl_names;
 mod plan;
@@ -67,7 +69,8 @@ pub use axiom::Axiom;
 pub use budget::{Budget, MemoryLimit, MemoryProbe, Stop};
 pub use call::{GroundCall, LiftedCall};
 pub use evidence::{CompactError, Evidence, MergeError};
-pub use goal::{Goal, GoalError};
+pub use goal::Goal;
+pub use goal_error::{GoalError, GoalErrorKind};
 pub use goal_types::GoalTypeMismatch;
 pub use hierarchy::{Hierarchy, HierarchyError, ROOT, TypeId};
 pub use instantiate::{GroundAction, InstantiateError};
@@ -82,6 +85,7 @@ pub use observations::{
     Cluster, ClusterKey, MOST_PARAMETERS, NegativeKey, Observations, OpenObservations, Unexplained, WITNESS_BOUND,
     Witness,
 };
+pub use other_notation::OtherNotation;
 pub use parse_config::ParseConfig;
 pub use pddl_names::{NameCollision, PddlNames};
 pub use plan::{Imagined, Plan, Step};

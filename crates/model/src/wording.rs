@@ -20,6 +20,12 @@ pub struct Wording {
 }
 
 impl Wording {
+    /// Whether the formula, as far as it is told, has this name in it, in upper or lower case.
+    pub fn mentions(&self, name: &Symbol) -> bool {
+        let mut words = self.formula.split(|c: char| c.is_whitespace() || c == '(' || c == ')');
+        words.any(|word| word.eq_ignore_ascii_case(name.as_str()))
+    }
+
     /// The formula, or its negation, with what its variables stand for where the predicate has these arguments.
     pub fn say<T: Display>(&self, args: &[T], positive: bool) -> String {
         let formula = &self.formula;
@@ -55,6 +61,8 @@ mod tests {
         let say = |atom: &str, positive| model.in_words(&GroundAtom::parse(atom).expect(atom), positive);
         assert_eq!(say("forall-go-1(ship)", false), "(forall (?c) (on ?c ?s ?q)) where ?s is ship and ?q is pier");
         assert_eq!(say("forall-go-1(ship)", true), "(not (forall (?c) (on ?c ?s ?q))) where ?s is ship and ?q is pier");
+        let mentions = |name: &str| model.wordings.values().any(|wording| wording.mentions(&Symbol::new(name)));
+        assert!(mentions("on") && mentions("ON") && !mentions("o") && !mentions("ship"));
         assert_eq!(say("on(a,b)", true), "on(a,b)");
         assert_eq!(say("on(a,b)", false), "not on(a,b)");
     }

@@ -207,9 +207,14 @@ impl<'v> Scope<'v> {
                 let mut known: Vec<&Symbol> = self.vocabulary.objects.keys().collect();
                 known.sort();
                 let error = part.error(format!("object `{name}` is not declared"));
-                Err(error.with_hint(did_you_mean(&name, known).unwrap_or_else(|| {
-                    "Declare it in `(:objects …)` of the problem or in `(:constants …)` of the domain.".to_owned()
-                })))
+                let is_type = self.vocabulary.is_type(&name);
+                Err(error.with_hint(match did_you_mean(&name, known).filter(|_| !is_type) {
+                    Some(question) => question,
+                    None if is_type => format!("`{name}` is a type: name an object of it."),
+                    None => {
+                        "Declare it in `(:objects …)` of the problem or in `(:constants …)` of the domain.".to_owned()
+                    }
+                }))
             }
         }
     }

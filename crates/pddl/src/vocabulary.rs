@@ -194,6 +194,11 @@ impl Vocabulary {
         }
     }
 
+    /// Whether there is a type of this name.
+    pub(crate) fn is_type(&self, name: &str) -> bool {
+        self.types.contains_key(&*lower(name))
+    }
+
     /// The type that is written here, in the spelling of its declaration.
     ///
     /// # Errors

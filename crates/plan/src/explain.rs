@@ -13,6 +13,7 @@ use typelift_model::{
 };
 
 use crate::Restrictions;
+use crate::conflict::Conflict;
 use crate::reach::Reachable;
 
 /// What stands between an action and the atom that it could achieve.
@@ -75,6 +76,9 @@ pub struct Nearest {
     /// Whether it has other ways to be used or to add the atom: then the obstacles are those of the nearest way.
     #[serde(default, skip_serializing_if = "is_false")]
     pub one_of_several: bool,
+    /// Whether it was imagined: then no list of the model's actions has it.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub imagined: bool,
     /// What is missing; empty if only no choice of objects satisfies all that it needs.
     pub obstacles: Vec<Obstacle>,
 }
@@ -132,6 +136,9 @@ pub enum Explanation<A = GroundAtom> {
     NotTogether {
         /// The missing goal atoms, and whether each must hold. None where the search did not look at any state.
         missing: Vec<(A, bool)>,
+        /// Two of the goal atoms that undo each other, if that is known.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        conflict: Option<Conflict<A>>,
     },
 }
 
@@ -147,19 +154,20 @@ impl Explanation {
             Self::Exclusive { one, other } => Explanation::Exclusive { one: words(one), other: words(other) },
             Self::ToldByPlanner => Explanation::ToldByPlanner,
             Self::NeverDeleted(atoms) => Explanation::NeverDeleted(atoms.iter().map(words).collect()),
-            Self::NotTogether { missing } => {
+            Self::NotTogether { missing, conflict } => {
                 // A formula is negated in its own words.
                 let literal = |(atom, positive): &(GroundAtom, bool)| match model.wordings.get(&atom.predicate) {
                     Some(_) => (model.in_words(atom, *positive), true),
                     None => (words(atom), *positive),
                 };
-                Explanation::NotTogether { missing: missing.iter().map(literal).collect() }
+                let conflict = conflict.as_ref().map(|conflict| conflict.map(words));
+                Explanation::NotTogether { missing: missing.iter().map(literal).collect(), conflict }
             }
         }
     }
 }
 
-impl<A: Display> Display for Explanation<A> {
+impl<A: Display + PartialEq> Display for Explanation<A> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Unreachable(goals) => {
@@ -177,13 +185,16 @@ impl<A: Display> Display for Explanation<A> {
                     .collect();
                 f.write_str(&lines.join("\n"))
             }
-            Self::NotTogether { missing } => {
+            Self::NotTogether { missing, conflict } => {
                 f.write_str("no state that can be reached satisfies the goal")?;
                 let missing: Vec<String> = missing
                     .iter()
                     .map(|(atom, positive)| format!("{}{atom}", if *positive { "" } else { "not " }))
                     .collect();
-                if missing.is_empty() { Ok(()) } else { write!(f, "; at best this is missing: {}", missing.join(", ")) }
+                if !missing.is_empty() {
+                    write!(f, "; at best this is missing: {}", missing.join(", "))?;
+                }
+                conflict.iter().try_for_each(|conflict| write!(f, "\n{conflict}"))
             }
         }
     }
@@ -203,10 +214,11 @@ impl Display for Unreached {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NoAction => f.write_str("no action can add it"),
-            Self::Nearest(Nearest { action, obstacles, .. }) if obstacles.is_empty() => {
-                write!(f, "no choice of objects lets {action} add it")
-            }
-            Self::Nearest(Nearest { action, one_of_several, obstacles }) => {
+            Self::Nearest(Nearest { action, one_of_several, imagined, obstacles }) => {
+                let action = if *imagined { format!("{action} (imagined)") } else { action.to_string() };
+                if obstacles.is_empty() {
+                    return write!(f, "no choice of objects lets {action} add it");
+                }
                 let way = if *one_of_several { "in the nearest of its cases " } else { "" };
                 let obstacles: Vec<String> = obstacles.iter().map(ToString::to_string).collect();
                 write!(f, "the nearest action is {action}, but {way}{}", obstacles.join(", and "))
@@ -252,7 +264,10 @@ impl Context<'_> {
         }
         let ways: Vec<Nearest> =
             self.model.adding(atom).map(|(schema, effect, binding)| self.nearest(schema, effect, &binding)).collect();
-        let Some(nearest) = ways.iter().min_by_key(|way| way.obstacles.len()) else { return Unreached::NoAction };
+        // Of several that are as near, one that was shown, which whoever reads this can look up.
+        let Some(nearest) = ways.iter().min_by_key(|way| (way.obstacles.len(), way.imagined)) else {
+            return Unreached::NoAction;
+        };
         let of_same = ways.iter().filter(|way| way.action == nearest.action).count();
         Unreached::Nearest(Nearest { one_of_several: of_same > 1, ..nearest.clone() })
     }
@@ -299,7 +314,8 @@ impl Context<'_> {
         if obstacles.is_empty() && (is_banned() || may_not_meet()) {
             obstacles.push(Obstacle::Banned);
         }
-        Nearest { action: schema.signature().name, one_of_several: false, obstacles }
+        let imagined = schema.provenance.imagined().is_some();
+        Nearest { action: schema.signature().name, one_of_several: false, imagined, obstacles }
     }
 
     /// The objects that do not fit the parameters of an action and of its effect.

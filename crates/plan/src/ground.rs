@@ -267,6 +267,11 @@ impl GroundTask {
         self.schemas[op.schema].step(op.objects.clone(), op.cost)
     }
 
+    /// What plans call an action.
+    pub(crate) fn name_in_plans(&self, op: &Op) -> Symbol {
+        self.schemas[op.schema].signature().name
+    }
+
     /// The number of facts, reached or not.
     pub fn fact_count(&self) -> usize {
         self.reachable.facts.len()

@@ -1,10 +1,11 @@
 //! One level of planning: a task with some or all of its objects, grounded once and searched on demand.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use typelift_model::{ActionModel, Budget, GroundAtom, HashSet, Stop, Task};
 
 use crate::Restrictions;
+use crate::conflict::{Conflict, conflict};
 use crate::explain::{Explanation, unreachable};
 use crate::fact::FactId;
 use crate::fdr::Fdr;
@@ -26,6 +27,8 @@ pub(crate) struct Level {
     exclusive: Option<(GroundAtom, GroundAtom)>,
     /// What must not hold in the end, but is never deleted.
     never_deleted: Vec<GroundAtom>,
+    /// Two goals that undo each other; looked for where the search finds nothing.
+    conflict: OnceLock<Option<Conflict>>,
     /// `None` if there is nothing to search: a goal is unreachable, two exclude each other, or something is never deleted.
     stages: Option<Stages>,
 }
@@ -46,7 +49,7 @@ impl Level {
         let ground = Arc::new(GroundTask::of(reachable, model, task, options.tie_order, budget)?);
         let exclusive = exclusive_goals(&ground, budget)?.map(|(a, b)| (ground.atom(a), ground.atom(b)));
         let never_deleted = never_deleted(&ground, budget)?;
-        let mut this = Self { ground, exclusive, never_deleted, stages: None };
+        let mut this = Self { ground, exclusive, never_deleted, conflict: OnceLock::new(), stages: None };
         if !this.ground.unreachable_goals().is_empty() || this.exclusive.is_some() || !this.never_deleted.is_empty() {
             return Ok(this);
         }
@@ -76,6 +79,12 @@ impl Level {
         self.stages = None;
     }
 
+    /// Two goals that undo each other, if that is known. It is worked out once.
+    pub(crate) fn conflict(&self) -> Option<&Conflict> {
+        let stages = self.stages.as_ref()?;
+        self.conflict.get_or_init(|| conflict(&self.ground, &stages.space().task.mutexes)).as_ref()
+    }
+
     /// The grounded task.
     pub(crate) fn ground(&self) -> &GroundTask {
         &self.ground
@@ -84,7 +93,7 @@ impl Level {
     /// Why there is no plan. Model, task and restrictions are those that the level was made from.
     pub(crate) fn explain(&self, model: &ActionModel, task: &Task, restrictions: &Restrictions) -> Explanation {
         if self.is_open() {
-            return Explanation::NotTogether { missing: self.missing() };
+            return Explanation::NotTogether { missing: self.missing(), conflict: self.conflict().cloned() };
         }
         if !self.ground.unreachable_goals().is_empty() {
             let reachable = self.ground.reachable();

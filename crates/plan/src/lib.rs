@@ -19,6 +19,7 @@ mod alike;
 mod alternatives;
 mod assignment;
 mod axioms;
+mod conflict;
 mod distinct;
 mod explain;
 mod external;
@@ -53,6 +54,7 @@ mod widening;
 #[cfg(test)]
 mod worked;
 
+pub use conflict::{Conflict, Need};
 pub use explain::{Explanation, Nearest, Obstacle, UnreachableGoal, Unreached};
 pub use external::{ExternalFailure, ExternalPlanner, PlanDefect, StepDefect};
 pub use fact::FactId;

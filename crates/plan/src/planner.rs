@@ -109,6 +109,10 @@ impl Planner {
                     return Outcome::Unsolvable;
                 }
                 Found::Nothing => return Outcome::NoMorePlans,
+                // Looked for only now, since most tasks that take long have a plan.
+                Found::Stopped(Stop::Expansions) if self.given.is_empty() && self.search.is_in_vain() => {
+                    return Outcome::Unsolvable;
+                }
                 Found::Stopped(stop) => return stop.into(),
             }
             let spent = self.search.report().expansions - before;

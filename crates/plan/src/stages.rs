@@ -70,6 +70,11 @@ impl Stages {
         Ok(Self { space, strategy, stage: Stage::First, search, has_found: false, past })
     }
 
+    /// What is searched.
+    pub(crate) fn space(&self) -> &Space {
+        &self.space
+    }
+
     /// Whether this search finds all plans, however many and however cheap.
     fn is_one_for_all(&self) -> bool {
         matches!(self.strategy, Strategy::OrderedLandmarks | Strategy::AStarLmCut | Strategy::AStarBlind)

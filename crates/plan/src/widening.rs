@@ -118,10 +118,15 @@ impl Widening {
         &self.task
     }
 
+    /// Whether it is known, without all being searched, that there is no plan.
+    pub(crate) fn is_in_vain(&self) -> bool {
+        self.scopes.is_whole() && !self.over && self.level.conflict().is_some()
+    }
+
     /// Why there is no plan.
     pub(crate) fn explain(&self) -> Explanation {
         if self.over {
-            return Explanation::NotTogether { missing: self.missing() };
+            return Explanation::NotTogether { missing: self.missing(), conflict: None };
         }
         self.level.explain(&self.model, &self.task, &self.restrictions)
     }

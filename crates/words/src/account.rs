@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use typelift_agent::{
     Account, Avoided, Ending, Episode, Failure, LastResorts, SeenDone, StepResult, StoppedAt, Suspect,
 };
-use typelift_model::{GroundCall, Plan, Symbol};
+use typelift_model::{GroundAtom, GroundCall, Plan, Symbol};
 use typelift_plan::Explanation;
 use typelift_world::Verdict;
 
@@ -80,6 +80,12 @@ pub struct FailureView {
     /// What was expected of it and did not come about: what was to hold, and after `not` what was to hold no longer.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub missed: Vec<String>,
+    /// What it added.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub added: Vec<GroundAtom>,
+    /// What it deleted.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub deleted: Vec<GroundAtom>,
     /// Whether the step was imagined.
     pub imagined: bool,
     /// What is to blame, as far as was known then, and excluded therefore.
@@ -108,7 +114,7 @@ impl AccountView {
             task: task.to_owned(),
             solved: account.solved(),
             ending: account.ending.word().to_owned(),
-            why: why_not(account),
+            why: why_not(account, &[]),
             reasons: match &account.ending {
                 Ending::NoPlan(explanation) => Some(explanation.clone()),
                 _ => None,
@@ -144,6 +150,8 @@ impl FailureView {
             result: failure.result,
             reason: failure.reason.clone(),
             missed: failure.missed.clone(),
+            added: failure.added.clone(),
+            deleted: failure.deleted.clone(),
             imagined: failure.imagined,
             suspects: failure.suspects.clone(),
         }
@@ -171,13 +179,13 @@ impl BrokenOffView {
     }
 }
 
-/// Why the goal was not seen to hold, if it was not.
-fn why_not(account: &Account) -> Option<String> {
+/// Why the goal was not seen to hold, if it was not, where these failures are told of already.
+fn why_not(account: &Account, told: &[Failure]) -> Option<String> {
     Some(match &account.ending {
         Ending::Solved => return None,
         Ending::NoPlan(explanation) if account.avoided.is_empty() => format!("nothing left to try: {explanation}"),
         Ending::NoPlan(explanation) => {
-            let avoided: Vec<String> = account.avoided.iter().map(avoided).collect();
+            let avoided: Vec<String> = account.avoided.iter().map(|avoiding| avoided(avoiding, told)).collect();
             format!("nothing left to try without what is excluded:\n  {}\n{explanation}", avoided.join("\n  "))
         }
         Ending::Circular => "the plan that is left went as expected before, from this very state, and did not lead to \
@@ -198,14 +206,16 @@ fn why_not(account: &Account) -> Option<String> {
     })
 }
 
-/// What is excluded after a failure, or by a person's word, and why.
-fn avoided(avoided: &Avoided) -> String {
+/// What is excluded after a failure, or by a person's word, and after which, unless that is told already.
+fn avoided(avoided: &Avoided, told: &[Failure]) -> String {
     let Avoided { reason, by_person, suspects } = avoided;
     let by = if *by_person { "by your word: " } else { "" };
     let suspects: Vec<String> = suspects.iter().map(ToString::to_string).collect();
-    match suspects.is_empty() {
-        true => format!("{by}the same action again, since {reason}"),
-        false => format!("{by}{}, since {reason}", suspects.join(", and ")),
+    match (told.iter().find(|failure| failure.in_words() == *reason), suspects.is_empty()) {
+        (Some(failure), true) => format!("{by}{} again", failure.call),
+        (Some(_), false) => format!("{by}{}", suspects.join(", and ")),
+        (None, true) => format!("{by}the same action again, after {reason}"),
+        (None, false) => format!("{by}{}, after {reason}", suspects.join(", and ")),
     }
 }
 
@@ -223,8 +233,9 @@ pub fn summary(task: &str, account: &Account, planning_ms: u128, told: bool) -> 
     let mut lines = vec![headline(task, account, planning_ms)];
     for failure in account.failures.iter().filter(|_| !told) {
         let place = format!("proposal {}, step {}", failure.proposal, failure.step);
-        let reason = failure.reason.as_ref().map(|reason| format!(" ({reason})")).unwrap_or_default();
-        let what = format!("  {}: {}{reason}", failure.call, outcome(failure.result, &failure.missed));
+        let Failure { reason, missed, added, deleted, .. } = failure;
+        let reason = reason.as_ref().map(|reason| format!(" ({reason})")).unwrap_or_default();
+        let what = format!("  {}: {}{reason}", failure.call, failure.result.in_words(missed, added, deleted));
         lines.push(Text::new().plain("  ").with(Role::Aside, place).plain(what));
         lines.extend(failure.suspects.iter().map(|suspect| Text::new().plain(format!("    excluded {suspect}"))));
     }
@@ -241,7 +252,7 @@ pub fn summary(task: &str, account: &Account, planning_ms: u128, told: bool) -> 
         let what = "  actions were used although some of their effects held already, since nothing else was left";
         lines.push(Text::new().plain(what));
     }
-    let why = why_not(account);
+    let why = why_not(account, if told { &[] } else { &account.failures });
     lines.extend(why.iter().flat_map(|why| why.lines()).map(|line| Text::new().plain(format!("  {line}"))));
     let notes = account.goal_type_mismatches.iter();
     lines.extend(notes.map(|note| Text::new().plain("  ").with(Role::Warning, "note").plain(format!(": {note}"))));
@@ -263,13 +274,5 @@ fn headline(task: &str, account: &Account, planning_ms: u128) -> Text {
             line.with(Role::Good, "solved").plain(format!(": {}, {counted}", plan_size(plan)))
         }
         _ => line.with(Role::Bad, "not solved").plain(format!(": {counted}")),
-    }
-}
-
-/// What came of a step, in words; where only part of the expected effect happened, which part did not.
-pub(crate) fn outcome(result: StepResult, missed: &[String]) -> String {
-    match result {
-        StepResult::Tried(Verdict::Partly) => format!("{} (missing: {})", result.phrase(), missed.join(", ")),
-        _ => result.phrase().to_owned(),
     }
 }

@@ -3,7 +3,7 @@
 use typelift_agent::{Event, StepResult, WhyNoOther};
 use typelift_world::Verdict;
 
-use crate::account::{although, outcome};
+use crate::account::although;
 use crate::plan::imagined_part;
 use crate::text::{Role, Text, count};
 
@@ -17,7 +17,7 @@ pub fn line(event: &Event) -> Option<Text> {
             let (steps, imagined) = (count(plan.len() as u64, "step"), imagined_part(plan.imagined_steps() as u64));
             Text::new().plain(format!("  proposal {proposal}: {steps}{imagined}"))
         }
-        Event::Stepped { step, call, imagined, result, reason, reported, missed, .. } => {
+        Event::Stepped { step, call, imagined, result, reason, reported, missed, added, deleted, .. } => {
             let mut line = Text::new().plain(format!("  {step:>3}  {call}"));
             if *imagined {
                 line = line.plain("  ").with(Role::Imagined, "imagined");
@@ -26,7 +26,7 @@ pub fn line(event: &Event) -> Option<Text> {
             if *result == StepResult::Tried(Verdict::AsExpected) {
                 line = line.with(Role::Good, "ok");
             } else {
-                line = line.with(Role::Bad, outcome(*result, missed));
+                line = line.with(Role::Bad, result.in_words(missed, added, deleted));
             }
             if let Some(reported) = reported {
                 line = line.plain(", ").with(Role::Warning, although(*reported));

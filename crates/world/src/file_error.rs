@@ -1,10 +1,11 @@
 //! What is wrong with a file, and where: one error for all readers.
 
-use std::io;
-use std::path::Path;
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 use thiserror::Error;
-use typelift_model::{Hierarchy, did_you_mean, printable};
+use typelift_model::{Hierarchy, Symbol, did_you_mean, nearest, printable};
 use typelift_pddl::PddlError;
 
 use crate::{ParseError, ParseErrorKind, json};
@@ -27,6 +28,30 @@ pub struct FileError {
     pub excerpt: Option<String>,
     /// Whether the file is right, but uses something that is not supported.
     pub unsupported: bool,
+}
+
+/// The most names of a folder that are compared with one that is not there.
+const MOST_NAMES: usize = 10_000;
+
+/// ``Did you mean `demos/a.jsonl`?``, if the folder of a file that is not there has one that differs a little in its name or
+/// in its ending.
+fn file_nearby(file: &Path) -> Option<String> {
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let listed = fs::read_dir(folder.unwrap_or(Path::new("."))).ok()?.take(MOST_NAMES);
+    let mut names: Vec<PathBuf> = listed.filter_map(|entry| Some(entry.ok()?.file_name().into())).collect();
+    // A folder is listed in no order.
+    names.sort_unstable();
+    type Part = fn(&Path) -> Option<&OsStr>;
+    let differing_in = |part: Part, other: Part| {
+        let alike = names.iter().filter(|name| other(name) == other(file));
+        let parts: Vec<(Symbol, &PathBuf)> =
+            alike.filter_map(|name| Some((Symbol::new(part(name)?.to_str()?), name))).collect();
+        let near = nearest(part(file)?.to_str()?, parts.iter().map(|(part, _)| part))?;
+        parts.iter().find(|(part, _)| part == near).map(|(_, name)| *name)
+    };
+    let near = differing_in(Path::file_stem, Path::extension);
+    let near = near.or_else(|| differing_in(Path::extension, Path::file_stem))?;
+    Some(format!("Did you mean `{}`?", file.with_file_name(near).display()))
 }
 
 fn number(n: usize) -> u32 {
@@ -68,15 +93,15 @@ impl FileError {
 
     /// An error of the operating system.
     pub fn from_io(file: &Path, error: &io::Error) -> Self {
-        Self::new(
-            file,
-            match error.kind() {
-                io::ErrorKind::NotFound => "there is no such file".to_owned(),
-                io::ErrorKind::IsADirectory => "this is a folder, not a file".to_owned(),
-                io::ErrorKind::PermissionDenied => "access is not permitted".to_owned(),
-                _ => error.to_string(),
-            },
-        )
+        let what = match error.kind() {
+            io::ErrorKind::NotFound => {
+                return Self::new(file, "there is no such file").with_hint(file_nearby(file));
+            }
+            io::ErrorKind::IsADirectory => "this is a folder, not a file".to_owned(),
+            io::ErrorKind::PermissionDenied => "access is not permitted".to_owned(),
+            _ => error.to_string(),
+        };
+        Self::new(file, what)
     }
 
     /// An error of the operating system in writing.

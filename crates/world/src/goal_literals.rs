@@ -3,9 +3,9 @@
 
 use std::fmt;
 
-use serde::de::{Deserialize, DeserializeSeed, Deserializer, Error, SeqAccess, Visitor};
+use serde::de::{self, DeserializeSeed, Deserializer, Error, SeqAccess, Visitor};
 use serde::ser::{Serialize, SerializeSeq, Serializer};
-use typelift_model::{AtomTextError, Goal, GroundAtom};
+use typelift_model::{AtomTextError, Goal, GroundAtom, OtherNotation};
 
 /// What stands before an atom that must not hold.
 const NOT: &str = "not";
@@ -19,11 +19,7 @@ impl Serialize for WrittenGoal<'_> {
         let Self(goal) = self;
         let mut texts = serializer.serialize_seq(Some(goal.required.len() + goal.forbidden.len()))?;
         for (atom, positive) in goal.literals() {
-            if positive {
-                texts.serialize_element(atom)?;
-            } else {
-                texts.serialize_element(&format!("{NOT} {atom}"))?;
-            }
+            texts.serialize_element(&atom.as_goal(positive))?;
         }
         texts.end()
     }
@@ -57,11 +53,15 @@ impl<'de> DeserializeSeed<'de> for Next<'_> {
     type Value = ();
 
     fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<(), D::Error> {
-        let (atom, positive) = literal(&String::deserialize(deserializer)?).map_err(D::Error::custom)?;
+        let (atom, positive) =
+            literal(&<String as de::Deserialize>::deserialize(deserializer)?).map_err(D::Error::custom)?;
         let Goal { required, forbidden } = self.0;
         let (wanted, opposite) = if positive { (required, forbidden) } else { (forbidden, required) };
         if opposite.contains(&atom) {
-            return Err(D::Error::custom(format!("the goal contradicts itself: it has `{atom}` and `{NOT} {atom}`")));
+            return Err(D::Error::custom(format!(
+                "the goal contradicts itself: it has `{atom}` and `{}`",
+                atom.as_goal(false)
+            )));
         }
         wanted.push(atom);
         Ok(())
@@ -75,6 +75,19 @@ fn literal(text: &str) -> Result<(GroundAtom, bool), AtomTextError> {
         let negated = text.trim_start().strip_prefix(NOT).filter(|rest| rest.starts_with(char::is_whitespace));
         negated.and_then(|rest| GroundAtom::parse(rest).ok()).map(|atom| (atom, false)).ok_or(error)
     })
+}
+
+/// How to write a goal of a task or header whose text was refused with this error, if the error is about one that may be
+/// meant otherwise.
+pub(crate) fn hint(error: &serde_json::Error, text: &str) -> Option<String> {
+    #[derive(serde::Deserialize)]
+    struct Goals {
+        goal: Vec<String>,
+    }
+    let Goals { goal } = serde_json::from_str(text).ok()?;
+    let (text, wrong) = goal.iter().find_map(|text| Some((text, literal(text).err()?)))?;
+    let is_about_it = error.to_string().starts_with(&wrong.to_string());
+    is_about_it.then(|| OtherNotation::of(text)).flatten().map(|other| other.hint())
 }
 
 /// Nothing is asked for: what a header says that has no goal.

@@ -8,6 +8,8 @@ use serde::de::{Deserialize, Deserializer, Error, IgnoredAny, MapAccess, Visitor
 use typelift_model::Symbol;
 pub(crate) use typelift_model::json_message as message;
 
+use crate::goal_literals;
+
 /// What to do about an error at the end of this text, if that is known.
 pub(crate) fn hint(error: &serde_json::Error, text: &str) -> Option<String> {
     let line = text.lines().nth(error.line().max(1) - 1)?;
@@ -15,7 +17,10 @@ pub(crate) fn hint(error: &serde_json::Error, text: &str) -> Option<String> {
     let at = |back: usize| line.get(error.column().checked_sub(back)?..);
     let starts =
         |back| at(back).is_some_and(|rest| ["NaN", "Infinity", "-Infinity"].iter().any(|n| rest.starts_with(n)));
-    (starts(1) || starts(2)).then(|| "JSON has no NaN and no Infinity: leave the attribute out.".to_owned())
+    match starts(1) || starts(2) {
+        true => Some("JSON has no NaN and no Infinity: leave the attribute out.".to_owned()),
+        false => goal_literals::hint(error, text),
+    }
 }
 
 /// The keys that lead to an error's place in this text, as in `state.entities[3]`; none where it is about the whole, or

@@ -73,11 +73,17 @@ pub enum ParseErrorKind {
     TrueAndUnknown(GroundAtom),
 }
 
+/// What adapters write in place of null.
+const WORDS_FOR_NOTHING: [&str; 6] = ["", "None", "none", "null", "nil", "nothing"];
+
 impl ParseErrorKind {
     /// What to do about it, if that is known whatever the scene is read from.
     pub fn hint(&self) -> Option<&'static str> {
         match self {
             Self::Name(_) => Some("A name is a word without white space and ( ) , ; \"."),
+            Self::UnknownEntity { target, .. } if WORDS_FOR_NOTHING.contains(&target.as_str()) => {
+                Some("Where a relation is to nothing, write null: a text is taken for the name of an entity.")
+            }
             Self::UnknownEntity { .. } => Some("List that entity too; where a relation is to nothing, write null."),
             Self::Duplicate => Some("Give each entity a name of its own."),
             Self::TwoSources { .. } => Some("Rename one of the two, or ignore it."),

@@ -119,7 +119,7 @@ impl TaskFile {
         let scene = self.state.as_ref().ok_or(TaskError::NoState)?;
         let init = parser.parse(scene).map_err(TaskError::State)?;
         let goal = self.goal.named_as_in(predicates);
-        goal.check(&init, predicates)?;
+        goal.check(&init, predicates, parser.hierarchy())?;
         Ok(Task::new(init, goal))
     }
 

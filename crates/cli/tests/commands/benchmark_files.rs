@@ -162,6 +162,24 @@ fn what_only_the_domain_declares_may_hold() {
 }
 
 #[test]
+fn what_no_demonstration_showed_is_said_where_nothing_is_left_to_try() {
+    if !Command::new("python3").arg("--version").output().is_ok_and(|output| output.status.success()) {
+        println!("skipped: there is no python3");
+        return;
+    }
+    let folder = shift_of_a_larger_domain();
+    folder.write("depot.py", DEPOT);
+    for goal in ["(broken tram_2)", "(exists (?l - Line) (and (broken ?l) (clean ?l)))"] {
+        let objects = "(:objects Bus_7 - bus tram_2 - tram)";
+        let text = format!("(define (problem Late) (:domain night-shift) {objects} (:init) (:goal {goal}))");
+        folder.write("late.pddl", text);
+        let run = folder.run("run shift.json late.pddl --env 'python3 depot.py'");
+        let note = "note: no demonstration showed `broken`: the domain declares it, and no learned action changes it\n";
+        assert!(run.code == 12 && run.err.ends_with(note), "{goal}: {run}");
+    }
+}
+
+#[test]
 fn what_the_domain_declares_stays_with_the_model_whatever_is_shown() {
     let folder = shift_of_a_larger_domain();
     folder.write(

@@ -36,7 +36,15 @@ fn an_answer_that_means_nothing_is_answered() {
         ("n 2 kind blender_1 cup_1", "cup_1 is not in step 2; in it are agent_1, blender_1, apple_1"),
         ("n 2 while foo(cup_1)", "the model has no predicate `foo`"),
         ("n 2 while content_hold(cup_1)", "the model has no predicate `content_hold`. Did you mean `content_holds`?"),
-        ("n 2 while content_holds(cup_1)", "`content_holds` takes 2 arguments, not 1"),
+        (
+            "n 2 while content_holds(cup_1)",
+            "`content_holds` takes 2 arguments, not 1. Write `content_holds(x1,x2)`, with the names of entities.",
+        ),
+        (
+            "n 2 while (content_holds cup_1 apple_1)",
+            "`(content_holds cup_1 apple_1)` is not an atom of the form predicate(entity,entity). Write \
+             `content_holds(cup_1,apple_1)`.",
+        ),
         ("n 2 while", "while what? Write an atom after it, such as `on(cup_1,table_1)`"),
     ] {
         let ended = asked(&folder, "K/tasks/T4.1.json --imagine --confirm", &format!("{answer}\ny\n"));

@@ -22,6 +22,7 @@ mod lab_report;
 mod learning;
 mod learning_more;
 mod limits;
+mod near_misses;
 mod negative_goals;
 mod outputs;
 mod pddl_files;

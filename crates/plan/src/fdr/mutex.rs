@@ -63,11 +63,14 @@ impl MutexGroups {
         None
     }
 
+    /// Whether these two never hold together.
+    pub(crate) fn exclude(&self, one: FactId, other: FactId) -> bool {
+        one != other && self.groups_of(one).iter().any(|group| self.groups_of(other).contains(group))
+    }
+
     /// The facts among `negative` that may hold where all of `positive` do. That the others do not hold goes without saying.
     pub(crate) fn compatible(&self, negative: &[FactId], positive: &[FactId]) -> Vec<FactId> {
-        let shares_group =
-            |a: FactId, b: FactId| self.groups_of(a).iter().any(|group| self.groups_of(b).contains(group));
-        let excluded = |fact: FactId| positive.iter().any(|&other| other != fact && shares_group(fact, other));
+        let excluded = |fact: FactId| positive.iter().any(|&other| self.exclude(fact, other));
         negative.iter().copied().filter(|&fact| !excluded(fact)).collect()
     }
 
