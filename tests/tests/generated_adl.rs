@@ -333,7 +333,7 @@ impl Known<'_> {
         let mut open: Vec<usize> = after.iter().copied().collect();
         while let Some(state) = open.pop() {
             let is_needed = lost.as_ref().is_some_and(|lost| lost[state]);
-            assert!(!is_needed && !(one[state] && of_other[state]), "{}", self.texts);
+            assert!(!(is_needed || one[state] && of_other[state]), "{}", self.texts);
             for &(_, next, _) in &self.space.steps[state] {
                 assert!(of_other[state] || !of_other[next], "{}", self.texts);
                 if after.insert(next) {
@@ -353,6 +353,16 @@ impl Known<'_> {
             Unreached::NoAction => {
                 self.assert_never(atom);
                 "no action"
+            }
+            Unreached::NeverUsed(action) => {
+                self.assert_never(atom);
+                let action = self.meaning.action(action.as_str()).expect("the domain has it");
+                let mut choices = self.meaning.choices(&action.parameters).into_iter();
+                let is_used = |objects: &Vec<Symbol>| {
+                    self.space.states.iter().any(|state| self.meaning.can_be_used(action, objects, state))
+                };
+                assert!(!choices.any(|objects| is_used(&objects)), "{}", self.texts);
+                "never used"
             }
             Unreached::Impossible => "impossible",
             Unreached::Derived(needed) => {
@@ -442,6 +452,7 @@ fn generated_tasks_are_of_all_kinds() {
     let mut found = Found::default();
     (0..300).for_each(|seed| check(seed, &mut found));
     assert!(found.tasks > 250 && found.solved > 100 && found.longest >= 10, "{found:?}");
-    let kinds = ["derived", "exclusive", "impossible", "nearest", "never deleted", "no action", "not together"];
+    let kinds =
+        ["derived", "exclusive", "impossible", "nearest", "never deleted", "never used", "no action", "not together"];
     assert_eq!(found.reasons, BTreeSet::from(kinds), "{found:?}");
 }

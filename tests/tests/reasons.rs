@@ -62,7 +62,11 @@ fn what_only_another_case_needs_is_not_said_to_be_needed() {
 #[test]
 fn an_action_that_is_never_used_is_not_said_not_to_be_there() {
     let odd = "(:action odd :parameters (?s - ship) :precondition (or) :effect (sailed ?s))";
-    assert_eq!(in_harbour(odd, "", "(sailed s)"), "sailed(s) cannot be reached: no action can add it");
+    assert_eq!(
+        in_harbour(odd, "", "(sailed s)"),
+        "sailed(s) cannot be reached: no action can add it: odd, which adds such atoms, can never be used"
+    );
+    assert_eq!(in_harbour(odd, "", "(tested s)"), "tested(s) cannot be reached: no action can add it");
 }
 
 #[test]

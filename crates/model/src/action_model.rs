@@ -29,6 +29,9 @@ pub struct ActionModel {
     /// How the text that the model was made from puts what predicates stand for that it does not have. Learned models
     /// have none, and a model's file holds none.
     pub wordings: BTreeMap<Symbol, Wording>,
+    /// The actions of that text that can never be used, whatever the state, which are none of the model's; each with the
+    /// predicates that it would add. Learned models have none, and a model's file holds none.
+    pub never_used: BTreeMap<Symbol, BTreeSet<Symbol>>,
 }
 
 /// The PDDL names of everything that a model names.

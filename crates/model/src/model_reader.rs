@@ -84,8 +84,8 @@ impl LearnedModel {
         let predicates = read_predicates(file.predicates, &hierarchy)?;
         let declared_predicates = read_predicates(file.declared_predicates, &hierarchy)?;
         let axioms = file.axioms.into_iter().map(|axiom| read_axiom(axiom, &hierarchy)).collect::<Result<_, _>>()?;
-        let wordings = BTreeMap::new();
-        let model = ActionModel { hierarchy, predicates, actor, constants, actions, axioms, wordings };
+        let (wordings, never_used) = (BTreeMap::new(), BTreeMap::new());
+        let model = ActionModel { hierarchy, predicates, actor, constants, actions, axioms, wordings, never_used };
         drop(total);
         Ok(Self {
             model,

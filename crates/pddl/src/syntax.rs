@@ -127,6 +127,16 @@ impl PddlEffect {
         }
     }
 
+    /// Calls `each` with every atom that it may add.
+    pub(crate) fn for_each_added(&self, each: &mut impl FnMut(&PddlAtom)) {
+        match self {
+            Self::And(parts) => parts.iter().for_each(|part| part.for_each_added(each)),
+            Self::Forall(_, body) | Self::When(_, body) => body.for_each_added(each),
+            Self::Add(atom) => each(atom),
+            Self::Delete(_) | Self::Increase(_) => {}
+        }
+    }
+
     /// Whether it says something of the total cost.
     pub(crate) fn increases(&self) -> bool {
         match self {

@@ -94,6 +94,8 @@ fn is_false(value: &bool) -> bool {
 pub enum Unreached {
     /// No action can add it.
     NoAction,
+    /// No action can add it: this one, which adds atoms of its predicate, can never be used.
+    NeverUsed(Symbol),
     /// This action comes nearest to adding it.
     Nearest(Nearest),
     /// It is derived, and follows from nothing that can be reached. For each rule, something that the rule needs and that
@@ -214,6 +216,9 @@ impl Display for Unreached {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NoAction => f.write_str("no action can add it"),
+            Self::NeverUsed(action) => {
+                write!(f, "no action can add it: {action}, which adds such atoms, can never be used")
+            }
             Self::Nearest(Nearest { action, one_of_several, imagined, obstacles }) => {
                 let action = if *imagined { format!("{action} (imagined)") } else { action.to_string() };
                 if obstacles.is_empty() {
@@ -266,7 +271,9 @@ impl Context<'_> {
             self.model.adding(atom).map(|(schema, effect, binding)| self.nearest(schema, effect, &binding)).collect();
         // Of several that are as near, one that was shown, which whoever reads this can look up.
         let Some(nearest) = ways.iter().min_by_key(|way| (way.obstacles.len(), way.imagined)) else {
-            return Unreached::NoAction;
+            let mut never_used = self.model.never_used.iter();
+            let of_predicate = never_used.find(|(_, added)| added.contains(&atom.predicate));
+            return of_predicate.map_or(Unreached::NoAction, |(action, _)| Unreached::NeverUsed(action.clone()));
         };
         let of_same = ways.iter().filter(|way| way.action == nearest.action).count();
         Unreached::Nearest(Nearest { one_of_several: of_same > 1, ..nearest.clone() })

@@ -140,7 +140,10 @@ pub fn describe_axiom(axiom: &Axiom, model: &ActionModel) -> Description {
     let written = Written { parameters: axiom.parameters.iter().collect() };
     let mut text = Description { name: written.atom(&axiom.head), origin: "derived".to_owned(), rows: Vec::new() };
     text.row("for all", axiom.parameters.iter().map(|p| format!("?{} - {}", p.name, model.hierarchy.name(p.ty))));
-    text.row("if", axiom.body.iter().map(|literal| written.literal(literal)));
+    // What can never follow is written as following from itself, so that it is derived nevertheless.
+    let is_own = axiom.body.iter().any(|literal| literal.positive && literal.atom == axiom.head);
+    let never = is_own.then(|| "(which is itself: this never makes it hold)".to_owned());
+    text.row("if", axiom.body.iter().map(|literal| written.literal(literal)).chain(never));
     text
 }
 

@@ -48,13 +48,14 @@ pub(super) fn checked_domain(text: &str) -> Option<(Domain, ActionModel)> {
     }
 }
 
-/// That a model survives its file, but for wordings, which the file does not hold. The only reason not to write one is that
+/// That a model survives its file, but for wordings and what is never used, which the file does not hold. The only reason not to write one is that
 /// its names collide.
 pub(super) fn assert_kept(model: &LearnedModel) {
     match model.to_json() {
         Ok(json) => {
             let mut read = LearnedModel::from_json(&json).unwrap_or_else(|error| panic!("{error}:\n{json}"));
             read.model.wordings.clone_from(&model.model.wordings);
+            read.model.never_used.clone_from(&model.model.never_used);
             assert_eq!(read, *model);
             assert_eq!(read.to_json().ok(), Some(json));
         }

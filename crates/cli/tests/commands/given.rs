@@ -79,3 +79,16 @@ fn files_that_do_not_fit_together_are_refused() {
     }
     insta::assert_snapshot!("pddl-misfits", all);
 }
+
+#[test]
+fn a_rule_that_contradicts_itself_is_shown_never_to_hold() {
+    let folder = Folder::new();
+    let rules = "(:derived (odd ?c - cup) (and (full ?c) (not (full ?c)))) (:derived (even ?c - cup) (full ?c))";
+    let domain = format!(
+        "(define (domain cups) (:types cup) (:predicates (full ?c - cup) (odd ?c - cup) (even ?c - cup)) {rules})"
+    );
+    folder.write("cups.pddl", domain);
+    let shown = folder.run("show cups.pddl").out;
+    assert!(shown.contains("if          odd(?c) (which is itself: this never makes it hold)\n"), "{shown}");
+    assert!(shown.contains("if          full(?c)\n"), "{shown}");
+}

@@ -81,14 +81,22 @@ fn domain_within(domain: &Domain, limits: Limits) -> Result<ActionModel, Compile
     }
     let derived: BTreeSet<&Symbol> = domain.derived.iter().map(|derived| &derived.head.name).collect();
     let mut names = FreshNames::with(domain.actions.iter().map(|action| action.name.clone()));
-    let mut actions = Vec::new();
+    let (mut actions, mut never_used) = (Vec::new(), BTreeMap::new());
     let mut seen = BTreeSet::new();
     for action in &domain.actions {
         if !seen.insert(&action.name) {
             let part = CompilePart::Action(action.name.clone());
             return Err(CompileError::new(&part, "there is another action of this name"));
         }
-        actions.extend(schema::compile_action(action, world, &mut inventions, &derived, &mut names)?);
+        let schemas = schema::compile_action(action, world, &mut inventions, &derived, &mut names)?;
+        if schemas.is_empty() {
+            let mut added = BTreeSet::new();
+            action.effect.for_each_added(&mut |atom| {
+                added.insert(atom.predicate.clone());
+            });
+            never_used.insert(action.name.clone(), added);
+        }
+        actions.extend(schemas);
     }
     actions.sort_by(|a, b| a.name.cmp(&b.name));
     if !domain.actions.iter().any(|action| action.effect.increases()) {
@@ -101,6 +109,7 @@ fn domain_within(domain: &Domain, limits: Limits) -> Result<ActionModel, Compile
         actions,
         hierarchy: hierarchy.clone(),
         constants: constants.clone(),
+        never_used,
         ..ActionModel::default()
     };
     inventions.finish(&mut model);

@@ -179,7 +179,11 @@ fn axioms(model: &ActionModel) -> Vec<String> {
 /// The model, written to its file and read again; with the wordings, which the file does not hold.
 pub(super) fn written_and_read(model: &ActionModel) -> ActionModel {
     let text = LearnedModel::from(model.clone()).to_json().expect("it is written");
-    ActionModel { wordings: model.wordings.clone(), ..LearnedModel::from_json(&text).expect("it is read").model }
+    ActionModel {
+        wordings: model.wordings.clone(),
+        never_used: model.never_used.clone(),
+        ..LearnedModel::from_json(&text).expect("it is read").model
+    }
 }
 
 fn compiled(domain: &Domain) -> ActionModel {
