@@ -50,14 +50,15 @@ def choose(held_out: dict[str, list[str]]) -> Iterator[dict[str, str]]:
         for names, count in ((held_out[kind], ON_HELD_OUT), (seen, ON_SEEN)):
             pools = [chance.sample(by_class[name], len(by_class[name])) for name in names]
             in_turn = (pool[turn] for turn in range(max(map(len, pools))) for pool in pools if turn < len(pool))
-            yield from islice(filter(is_to_do, in_turn), count)
+            yield from islice(filter(is_task, in_turn), count)
 
 
-def is_to_do(task: dict[str, str]) -> bool:
-    """Whether it is yet to be done where its program begins."""
+def is_task(task: dict[str, str]) -> bool:
+    """Whether it is yet to be done where its program begins, and done by it: a thing may be picked up with the other hand."""
     home = Household()
     home.reset(0, {"program": task["program"]})
-    return goal_of(task["kind"], task["thing"], home.ids[home.character]) not in home.state()["atoms"]
+    goal = goal_of(task["kind"], task["thing"], home.ids[home.character])
+    return goal not in home.state()["atoms"] and reaches(home, home.calls(task["program"]), [goal])
 
 
 def types(names: Iterable[str]) -> dict[str, list[str]]:

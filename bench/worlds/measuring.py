@@ -1,4 +1,5 @@
-"""Learns from demonstrations, has typelift carry out tasks twice with one memory, and counts what is solved and what fails.
+"""Learns from demonstrations, has typelift carry out tasks, and counts what is solved and what fails: without a memory, each task
+as if it were the first, then twice with one memory.
 
 Each task is a process of its own: what is known in the next one comes from the memory. What was measured stands in a file of
 results, a line a task, and is not measured again: a measure that was stopped goes on where it was.
@@ -16,7 +17,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-PASSES = ("first pass", "second pass")
+ALONE = "no memory"
+PASSES = (ALONE, "first pass", "second pass")
 SUCCEEDED, NOT_ACHIEVED = 0, 12
 
 
@@ -86,7 +88,7 @@ class Measure:
         return model
 
     def run(self, settings: Sequence[Setting], tasks: Sequence[Task]) -> list[dict[str, Any]]:
-        """The results of all tasks, in all settings, twice: those that there are, and those that were missing."""
+        """The results of all tasks, in all settings and passes: those that there are, and those that were missing."""
         file = self.folder / "results.jsonl"
         known = [json.loads(line) for line in file.read_text().splitlines()] if file.exists() else []
         results = {(result["setting"], result["pass"], result["task"]): result for result in known}
@@ -108,9 +110,10 @@ class Measure:
         events = folder / number.replace(" ", "-") / f"{task.name}.events"
         events.parent.mkdir(parents=True, exist_ok=True)
         memory = folder / "memory"
-        model = [] if memory.exists() else [self.learn(setting.demonstrations)]
-        command = [self.typelift, "run", *model, task.write(self.folder / "tasks"), "--env", self.environment]
-        command += ["--memory", memory, "--events", events, "--time-limit", f"{self.task_limit}s", "--json", "-q"]
+        known = ["--memory", memory] if number != ALONE else []
+        known += [] if known and memory.exists() else [self.learn(setting.demonstrations)]
+        command = [self.typelift, "run", *known, task.write(self.folder / "tasks"), "--env", self.environment]
+        command += ["--events", events, "--time-limit", f"{self.task_limit}s", "--json", "-q"]
         begun = time.monotonic()
         ran = subprocess.run([*command, *setting.options], check=False, capture_output=True, text=True)
         if ran.returncode not in (SUCCEEDED, NOT_ACHIEVED):
