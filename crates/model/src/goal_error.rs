@@ -144,11 +144,15 @@ fn no_object(name: &Symbol, state: &State, hierarchy: &Hierarchy) -> GoalErrorKi
     }
 }
 
-/// The predicates that may have been meant: the one of nearly that name, one that is made from what a snapshot calls so, or
-/// those that other values of the same attribute give.
+/// The predicates that may have been meant: where the attribute is known, that of nearly the same value, or of every value;
+/// else the one of nearly that name, or one that is made from what a snapshot calls so.
 fn near_predicates(atom: &GroundAtom, predicates: &ArgumentTypes) -> Vec<Symbol> {
+    let of_values = of_other_values(atom, predicates);
+    if !of_values.is_empty() {
+        return of_values;
+    }
     let near = nearest(atom.predicate.as_str(), predicates.keys()).or_else(|| made_from(atom, predicates));
-    near.map_or_else(|| of_other_values(atom, predicates), |near| vec![near.clone()])
+    near.cloned().into_iter().collect()
 }
 
 /// A predicate that is made from what a snapshot calls so: the relation `holding` gives `holding_holds`, the attribute
@@ -163,15 +167,18 @@ fn made_from<'a>(atom: &GroundAtom, predicates: &'a ArgumentTypes) -> Option<&'a
 }
 
 /// The predicates that begin as this one does up to its last `_`, and have as many arguments: `battery_Full` beside
-/// `battery_Empty`.
+/// `battery_Empty`. If what follows is nearly the same in one of them, that one alone.
 fn of_other_values(atom: &GroundAtom, predicates: &ArgumentTypes) -> Vec<Symbol> {
-    let Some((attribute, _)) = atom.predicate.as_str().rsplit_once('_') else { return Vec::new() };
-    let is_of_attribute = |name: &Symbol| {
-        let rest = name.as_str().strip_prefix(attribute);
-        rest.is_some_and(|rest| rest.starts_with('_'))
-    };
-    let others = predicates.iter().filter(|(name, types)| is_of_attribute(name) && types.len() == atom.arity());
-    others.map(|(name, _)| name.clone()).collect()
+    let Some((attribute, value)) = atom.predicate.as_str().rsplit_once('_') else { return Vec::new() };
+    let alike = predicates.iter().filter(|(_, types)| types.len() == atom.arity()).filter_map(|(name, _)| {
+        let value = name.as_str().strip_prefix(attribute)?.strip_prefix('_')?;
+        Some((Symbol::new(value), name))
+    });
+    let alike: Vec<(Symbol, &Symbol)> = alike.collect();
+    match nearest(value, alike.iter().map(|(value, _)| value)) {
+        Some(near) => alike.iter().filter(|(value, _)| value == near).map(|(_, name)| (*name).clone()).collect(),
+        None => alike.into_iter().map(|(_, name)| name.clone()).collect(),
+    }
 }
 
 #[cfg(test)]
@@ -206,6 +213,7 @@ mod tests {
             ("on_hold(drum_1,dock_1)", "the model has no predicate `on_hold`", "Did you mean `on_holds`?"),
             ("Battery_full(truck_1)", "the model has no predicate `Battery_full`", "Did you mean `battery_Full`?"),
             ("on(drum_1,dock_1)", "the model has no predicate `on`", "Did you mean `on_holds`?"),
+            ("battery_Pull(truck_1)", "the model has no predicate `battery_Pull`", "Did you mean `battery_Full`?"),
             (
                 "battery_Empty(truck_1)",
                 "the model has no predicate `battery_Empty`",

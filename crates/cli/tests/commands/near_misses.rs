@@ -24,6 +24,8 @@ fn goals_as_others_write_them() {
                 .to_owned(),
         ),
         ("chop_state_Chopped(lettuce)".to_owned(), "Name an entity of this type: `lettuce_1` or `lettuce_2`.".to_owned()),
+        // Five letters of it are those of `chop_state_Chopped`, but it is another value.
+        ("chop_state_Minced(lettuce_1)".to_owned(), "Did you mean `chop_state_Chopped` or `chop_state_Fresh`?".to_owned()),
         ("Chop_State_chopped(lettuce_1)".to_owned(), "Did you mean `chop_state_Chopped`?".to_owned()),
         ("not happy(lettuce_1)".to_owned(), "`typelift show MODEL --predicates` lists what a goal may say.".to_owned()),
     ] {
