@@ -16,7 +16,7 @@ import sys
 from pathlib import Path
 
 from cooking_game import CookingGame
-from measuring import Measure, Setting, Task, explain, options, parse, table
+from measuring import Measure, Setting, Task, explain, kinds, options, parse, table
 from serving import reaches, record
 
 HERE = Path(__file__).parent
@@ -57,7 +57,7 @@ def main() -> None:
     ]
     results = measure.run(settings, tasks)
     if arguments.explain:
-        print("\n".join(explain(results)))
+        print("\n".join([*explain(results), *kinds(results)]))
     print(table(results, list(games["unseen"])))
 
 

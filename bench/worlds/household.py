@@ -23,7 +23,7 @@ from pathlib import Path
 from typing import Any
 
 from household_graph import Household, calls, household, programs
-from measuring import Measure, Setting, Task, explain, options, parse, table
+from measuring import Measure, Setting, Task, explain, kinds, options, parse, table
 from serving import reaches, record
 
 HERE = Path(__file__).parent
@@ -122,7 +122,7 @@ def main() -> None:
     ]
     results = measure.run(settings[:1] if arguments.quick else settings, tasks)
     if arguments.explain:
-        print("\n".join(explain(results)))
+        print("\n".join([*explain(results), *kinds(results)]))
     print(table(results, list(ACTIONS)))
 
 

@@ -8,10 +8,12 @@ results, a line a task, and is not measured again: a measure that was stopped go
 import argparse
 import hashlib
 import json
+import re
 import shlex
 import subprocess
 import sys
 import time
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -132,7 +134,7 @@ class Measure:
             "seconds": round(time.monotonic() - begun, 2),
             "ending": account["ending"],
             "why": account.get("why"),
-            "failures": [f"{step['call']} {step['result']}: {step['reason']}" for step in steps],
+            "failures": [f"{step['call']} {step['result']}: {step['reason'] or ''}".rstrip(": ") for step in steps],
         }
 
 
@@ -194,3 +196,12 @@ def explain(results: Sequence[dict[str, Any]]) -> Iterator[str]:
             ending = "solved" if result["solved"] else f"{result['ending']}: {result['why']}"
             yield f"{result['setting']}, {result['pass']}, {result['task']}: {ending}"
             yield from (f"    {failure}" for failure in result["failures"])
+
+
+def kinds(results: Sequence[dict[str, Any]]) -> Iterator[str]:
+    """How often which actions failed for which reason, whatever things they were done to."""
+    for setting, number in dict.fromkeys((result["setting"], result["pass"]) for result in results):
+        rows = [result for result in results if (result["setting"], result["pass"]) == (setting, number)]
+        failures = [failure for row in rows for failure in row["failures"]]
+        counts = Counter(re.sub(r"<\w+> \(\d+\)", "_", re.sub(r"\(.*?\)", "", each, count=1)) for each in failures)
+        yield from (f"{setting}, {number}: {count} {kind}" for kind, count in counts.most_common())
