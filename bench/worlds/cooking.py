@@ -16,7 +16,7 @@ import sys
 from pathlib import Path
 
 from cooking_game import CookingGame
-from measuring import Measure, Setting, Task, explain, kinds, options, parse, table
+from measuring import Measure, Setting, Task, options, parse, report
 from serving import reaches, record
 
 HERE = Path(__file__).parent
@@ -25,14 +25,14 @@ HERE = Path(__file__).parent
 def main() -> None:
     arguments = parse(options(__doc__), "cooking")
     games = json.loads((HERE / "cooking.json").read_text())
-    count = {"demonstrations": 4, "unseen": 1} if arguments.quick else {"demonstrations": 8, "unseen": 10}
+    of_each = 2 if arguments.quick else 10
     kept = (
         arguments.folder.parent / "cooking-games"
     )  # Making them takes longer than all else, so that a quick look keeps them, too.
     game = CookingGame(kept)
 
     demonstrations = []
-    for seed in games["demonstrations"]["seeds"][: count["demonstrations"]]:
+    for seed in games["demonstrations"]["seeds"]:
         game.reset(seed, {**games["settings"], "split": games["demonstrations"]["split"]})
         trace = arguments.folder / "demonstrations" / f"game_{seed}.jsonl"
         if not trace.exists():
@@ -42,7 +42,7 @@ def main() -> None:
 
     tasks = []
     for split, seeds in games["unseen"].items():
-        for seed in seeds[: count["unseen"]]:
+        for seed in seeds[:of_each]:
             scenario = {**games["settings"], "split": split}
             game.reset(seed, scenario)
             if not reaches(game, game.walkthrough(), game.goal()):
@@ -52,13 +52,10 @@ def main() -> None:
     measure = Measure(arguments, [str(HERE / "cooking_game.py"), str(kept)], game.types)
     settings = [
         Setting(f"{number} demonstrations{', imagining' if imagining else ''}", demonstrations[:number], imagining)
-        for number in ([4] if arguments.quick else [8, 4])
-        for imagining in ((), ("--imagine",))
+        for number in ((8,) if arguments.quick else (8, 4))
+        for imagining in (((),) if arguments.quick else ((), ("--imagine",)))
     ]
-    results = measure.run(settings, tasks)
-    if arguments.explain:
-        print("\n".join([*explain(results), *kinds(results)]))
-    print(table(results, list(games["unseen"])))
+    report(measure.run(settings, tasks), list(games["unseen"]), arguments)
 
 
 if __name__ == "__main__":

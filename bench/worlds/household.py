@@ -23,7 +23,7 @@ from pathlib import Path
 from typing import Any
 
 from household_graph import Household, calls, household, programs
-from measuring import Measure, Setting, Task, explain, kinds, options, parse, table
+from measuring import Measure, Setting, Task, options, parse, report
 from serving import reaches, record
 
 HERE = Path(__file__).parent
@@ -100,8 +100,6 @@ def main() -> None:
 
     apart = {name for names in listed["held_out"].values() for name in names}
     shown = [name for name in programs() if apart.isdisjoint(each for _, objects in calls(name) for each, _ in objects)]
-    if arguments.quick:
-        shown = shown[::8]
     demonstrations = demonstrate(arguments.folder / "demonstrations", shown)
 
     tasks, home = [], Household()
@@ -118,12 +116,9 @@ def main() -> None:
     measure = Measure(arguments, [str(HERE / "household_graph.py")], lambda: types(used))
     settings = [
         Setting(f"{len(demonstrations)} programs{', imagining' if imagining else ''}", demonstrations, imagining)
-        for imagining in ((), ("--imagine",))
+        for imagining in (((),) if arguments.quick else ((), ("--imagine",)))
     ]
-    results = measure.run(settings[:1] if arguments.quick else settings, tasks)
-    if arguments.explain:
-        print("\n".join([*explain(results), *kinds(results)]))
-    print(table(results, list(ACTIONS)))
+    report(measure.run(settings, tasks), list(ACTIONS), arguments)
 
 
 if __name__ == "__main__":

@@ -177,6 +177,7 @@ def options(description: str | None) -> argparse.ArgumentParser:
     parser.add_argument("--folder", type=Path, help="what is measured, to go on with [target/worlds/…]")
     parser.add_argument("--quick", action="store_true", help="few tasks, to see that it works")
     parser.add_argument("--task-limit", type=int, default=120, metavar="SECONDS", help="of one task [%(default)s]")
+    parser.add_argument("--least", type=int, default=0, metavar="N", help="fail if a pass does fewer tasks than this")
     parser.add_argument("--explain", action="store_true", help="say why tasks were not solved, and what failed")
     return parser
 
@@ -187,6 +188,17 @@ def parse(parser: argparse.ArgumentParser, name: str) -> argparse.Namespace:
     if arguments.folder is None:
         arguments.folder = Path("target", "worlds", f"{name}-quick" if arguments.quick else name)
     return arguments
+
+
+def report(results: Sequence[dict[str, Any]], groups: Sequence[str], arguments: argparse.Namespace) -> None:
+    """Prints what came of it, and fails where too little did."""
+    if arguments.explain:
+        print("\n".join([*explain(results), *kinds(results)]))
+    print(table(results, groups))
+    done = Counter((result["setting"], result["pass"]) for result in results if result["solved"])
+    for setting, number in dict.fromkeys((result["setting"], result["pass"]) for result in results):
+        if done[setting, number] < arguments.least:
+            sys.exit(f"{setting}, {number}: fewer than {arguments.least} done")
 
 
 def explain(results: Sequence[dict[str, Any]]) -> Iterator[str]:
