@@ -71,9 +71,9 @@ def types(names: Iterable[str]) -> dict[str, list[str]]:
     return {**inner, **{name: sorted(named) for name, named in categories.items()}}
 
 
-def demonstrate(folder: Path, names: Iterable[str]) -> list[Path]:
-    """The programs, as traces; those that the simulator refuses in the middle end there."""
-    home, traces = Household(), []
+def demonstrate(home: Household, folder: Path, names: Iterable[str]) -> list[Path]:
+    """The programs, as traces."""
+    traces = []
     folder.mkdir(parents=True, exist_ok=True)
     for program in names:
         trace = folder / f"{program}.jsonl"
@@ -84,36 +84,43 @@ def demonstrate(folder: Path, names: Iterable[str]) -> list[Path]:
     return traces
 
 
+def write_list(held_out: dict[str, list[str]]) -> None:
+    """Draws the tasks, and writes them below the classes, one a line."""
+    tasks = ",\n    ".join(json.dumps(task) for task in choose(held_out))
+    classes = ",\n    ".join(f"{json.dumps(kind)}: {json.dumps(names)}" for kind, names in held_out.items())
+    LIST.write_text(f'{{\n  "held_out": {{\n    {classes}\n  }},\n  "tasks": [\n    {tasks}\n  ]\n}}\n')
+
+
+def pose(home: Household, listed: Iterable[dict[str, str]]) -> Iterator[Task]:
+    """The tasks of the list, each of which people's program does."""
+    for each in listed:
+        home.reset(0, {"program": each["program"]})
+        goal = goal_of(each["kind"], each["thing"], home.ids[home.character])
+        if not reaches(home, home.calls(each["program"]), [goal]):
+            sys.exit(f"{each['program']}: the program itself does not reach {goal}")
+        name = f"{each['kind'].replace(' ', '_')}-{each['thing']}-{each['program']}"
+        yield Task(name, each["kind"], [goal], {"program": each["program"]})
+
+
 def main() -> None:
     parser = options(__doc__)
     parser.add_argument("--choose", action="store_true", help="draw the tasks anew, and do no more")
+    parser.add_argument("--whole", action="store_true", help="tell all things of a household, in a --folder of its own")
     arguments = parse(parser, "household")
     listed: dict[str, Any] = json.loads(LIST.read_text())
     if arguments.choose:
-        listed["tasks"] = list(choose(listed["held_out"]))
-        text = ",\n    ".join(json.dumps(task) for task in listed["tasks"])
-        held_out = ",\n    ".join(
-            f"{json.dumps(kind)}: {json.dumps(names)}" for kind, names in listed["held_out"].items()
-        )
-        LIST.write_text(f'{{\n  "held_out": {{\n    {held_out}\n  }},\n  "tasks": [\n    {text}\n  ]\n}}\n')
+        write_list(listed["held_out"])
         return
 
+    home = Household(arguments.whole)
+    tasks = list(pose(home, listed["tasks"][::12] if arguments.quick else listed["tasks"]))
     apart = {name for names in listed["held_out"].values() for name in names}
     shown = [name for name in programs() if apart.isdisjoint(each for _, objects in calls(name) for each, _ in objects)]
-    demonstrations = demonstrate(arguments.folder / "demonstrations", shown)
-
-    tasks, home = [], Household()
-    for number, each in enumerate(listed["tasks"]):
-        if not arguments.quick or number % 12 == 0:
-            home.reset(0, {"program": each["program"]})
-            goal = goal_of(each["kind"], each["thing"], home.ids[home.character])
-            if not reaches(home, home.calls(each["program"]), [goal]):
-                sys.exit(f"{each['program']}: the program itself does not reach {goal}")
-            name = f"{each['kind'].replace(' ', '_')}-{each['thing']}-{each['program']}"
-            tasks.append(Task(name, each["kind"], [goal], {"program": each["program"]}))
+    demonstrations = demonstrate(home, arguments.folder / "demonstrations", shown)
 
     used = [*shown, *(task.scenario["program"] for task in tasks)]
-    measure = Measure(arguments, [str(HERE / "household_graph.py")], lambda: types(used))
+    adapter = [str(HERE / "household_graph.py"), *(["--whole"] if arguments.whole else [])]
+    measure = Measure(arguments, adapter, lambda: types(used))
     settings = [
         Setting(f"{len(demonstrations)} programs{', imagining' if imagining else ''}", demonstrations, imagining)
         for imagining in (((),) if arguments.quick else ((), ("--imagine",)))

@@ -64,12 +64,13 @@ class Measure:
         self.folder.mkdir(parents=True, exist_ok=True)
         if not self.types.exists():
             self.types.write_text(json.dumps(types(), sort_keys=True) + "\n")
-        self._begin(adapter[0])
+        self._begin(adapter)
 
-    def _begin(self, adapter: str) -> None:
+    def _begin(self, adapter: Sequence[str]) -> None:
         """Refuses to mix the results of one build or adapter with those of another."""
-        files = (Path(self.typelift), Path(adapter))
-        about = {file.name: hashlib.sha256(file.read_bytes()).hexdigest() for file in files}
+        files = (Path(self.typelift), Path(adapter[0]))
+        about: dict[str, Any] = {file.name: hashlib.sha256(file.read_bytes()).hexdigest() for file in files}
+        about["arguments"] = [Path(argument).name for argument in adapter[1:]]
         known = self.folder / "about.json"
         if not known.exists():
             known.write_text(json.dumps(about) + "\n")
