@@ -139,9 +139,10 @@ fn rules_switched_off() {
     };
     let plain = |tie_order| move |imagine| Options { strict: false, ..with_order(tie_order)(imagine) };
     // Each rule with the number of cells that change without it.
-    let experiments: [(&str, usize, Vec<String>); 8] = [
+    let experiments: [(&str, usize, Vec<String>); 9] = [
         ("successors by name alone", 0, changed(&with_order(TieOrder::Name))),
         ("general actions first", 3, changed(&with_order(TieOrder::GeneralFirst))),
+        ("guard for any two arguments", 0, changed(&with_guard(Guard::CallArguments))),
         ("guard for any two parameters", 2, changed(&with_guard(Guard::Parameters))),
         ("guard by topmost types", 0, changed(&with_guard(Guard::TopTypes))),
         ("guard off", 4, changed(&with_guard(Guard::Off))),

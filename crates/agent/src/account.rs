@@ -1,6 +1,7 @@
 //! The account of an episode: what was tried, what failed and was excluded and why, and how it ended.
 
 use serde::{Deserialize, Serialize};
+use typelift_imagine::GivenUp;
 use typelift_model::{GoalTypeMismatch, GroundAtom, GroundCall, Plan, Stop, Symbol};
 use typelift_plan::Explanation;
 use typelift_world::Verdict;
@@ -166,6 +167,9 @@ pub struct Account {
     /// Where the goal goes beyond the types of which the model has its predicates, if nothing was left to try.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub goal_type_mismatches: Vec<GoalTypeMismatch>,
+    /// What was not imagined since it would have gone too far, if nothing was left to try.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub given_up: Vec<GivenUp>,
 }
 
 impl Account {
@@ -184,6 +188,7 @@ impl Account {
             ground_actions: 0,
             resorts: LastResorts::default(),
             goal_type_mismatches: Vec::new(),
+            given_up: Vec::new(),
         }
     }
 

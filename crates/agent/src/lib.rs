@@ -40,3 +40,4 @@ pub use resort::{CountedExclusions, LastResort, LastResorts, Resort, ResortState
 pub use run::{Confirmation, RunError, run};
 pub use saved::{EPISODE_FORMAT, RestoreError};
 pub use turn::{Command, CommandId, Input};
+pub use typelift_imagine::GivenUp;

@@ -57,6 +57,7 @@ impl Episode {
             }
             Outcome::Unsolvable | Outcome::NoMorePlans => {
                 self.account.goal_type_mismatches = proposal.goal_type_mismatches();
+                self.account.given_up = proposal.imagination.given_up.clone();
                 self.account.avoided = self.experience.avoided_because(&self.instance, self.account.resorts.counted());
                 Ending::NoPlan(proposal.explain())
             }

@@ -2,9 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use typelift::agent::Episode;
-use typelift::imagine;
-use typelift::model::{ActionModel, Budget, Goal, Plan, State, Symbol};
+use typelift::agent::{Episode, GivenUp, Options, Proposal, propose};
+use typelift::imagine::{self, Guard};
+use typelift::model::{ActionModel, Budget, Goal, Plan, State, Symbol, Task};
+use typelift::plan::{Outcome, Restrictions};
 use typelift::words::count;
 
 use crate::style::{HINT, WARNING};
@@ -12,23 +13,59 @@ use crate::style::{HINT, WARNING};
 /// Nodes that are expanded to find out whether a hint holds.
 const HINT_EXPANSIONS: u64 = 20_000;
 
+/// A plan that another option would find.
+pub(crate) struct Hint {
+    option: &'static str,
+    plan: Plan,
+}
+
+/// What imagination might still do where there is no plan: anything at all, if it was not allowed; what it gave up, if it gave
+/// something up.
+fn wider(imagining: Option<imagine::Options>, given_up: &[GivenUp]) -> Option<(&'static str, imagine::Options)> {
+    match imagining {
+        None => Some(("--imagine", imagine::Options::default())),
+        Some(_) if given_up.is_empty() => None,
+        Some(_) => Some(("--guard off", imagine::Options { guard: Guard::Off })),
+    }
+}
+
 /// The same budget, with few expansions: for a hint nobody waits long.
-pub(crate) fn within_a_hint(budget: &Budget) -> Budget {
+fn within_a_hint(budget: &Budget) -> Budget {
     Budget { expansions: Some(HINT_EXPANSIONS), ..budget.clone() }
 }
 
-/// The plan that an episode that ended without one would find if actions were imagined, and it has not tried that.
-pub(crate) fn if_imagining(episode: &Episode, imagines: bool, budget: &Budget) -> Option<Plan> {
-    if imagines {
-        return None;
-    }
-    episode.plan_if_imagining(imagine::Options::default(), &within_a_hint(budget)).ok().flatten()
+/// The plan that an episode that ended without one would find if imagination might do more.
+pub(crate) fn for_episode(
+    episode: &Episode,
+    imagining: Option<imagine::Options>,
+    given_up: &[GivenUp],
+    budget: &Budget,
+) -> Option<Hint> {
+    let (option, imagining) = wider(imagining, given_up)?;
+    let plan = episode.plan_if_imagining(imagining, &within_a_hint(budget)).ok().flatten()?;
+    Some(Hint { option, plan })
 }
 
-/// Says that this plan is found if actions are imagined.
-pub(crate) fn say_what_imagining_finds(plan: &Plan) {
+/// The plan that there would be for this task if imagination might do more; `options` are those without one.
+pub(crate) fn for_task(
+    model: &ActionModel,
+    task: &Task,
+    options: Options,
+    given_up: &[GivenUp],
+    budget: &Budget,
+) -> Option<Hint> {
+    let (option, imagining) = wider(options.imagine, given_up)?;
+    let options = Options { imagine: Some(imagining), ..options };
+    match propose(model, task, &Restrictions::default(), &options, &within_a_hint(budget)) {
+        Ok(Proposal { outcome: Outcome::Solved(plan), .. }) => Some(Hint { option, plan }),
+        _ => None,
+    }
+}
+
+/// Says which plan is found if actions are imagined, or further ones.
+pub(crate) fn say_hint(Hint { option, plan }: &Hint) {
     anstream::eprintln!(
-        "{HINT}hint{HINT:#}: --imagine finds a plan of {} resting on {}",
+        "{HINT}hint{HINT:#}: {option} finds a plan of {} resting on {}",
         count(plan.len() as u64, "step"),
         count(plan.imagined_actions() as u64, "imagined action")
     );

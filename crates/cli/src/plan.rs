@@ -6,17 +6,16 @@ use std::mem::ManuallyDrop;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use typelift::agent::{Options, Proposal, ProposeError, propose};
-use typelift::imagine;
+use typelift::agent::{Proposal, ProposeError, propose};
 use typelift::model::{ActionModel, Budget, Plan as FoundPlan, Stop, Symbol, Task};
 use typelift::plan::{Outcome, Restrictions};
-use typelift::words::{AnswerView, count, ending, numbered_steps, plan_size, why_none};
+use typelift::words::{AnswerView, count, ending, given_up_notes, numbered_steps, plan_size, why_none};
 use typelift::world::write_file;
 
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::limits::{Clock, Interrupt, Limits, what_to_try};
-use crate::no_plan::{say_undemonstrated, say_what_imagining_finds, within_a_hint};
+use crate::no_plan::{for_task, say_hint, say_undemonstrated};
 use crate::overwriting::{Output, keep_inputs, numbered};
 use crate::plan_file::plan_file;
 use crate::planning_options::PlanningOptions;
@@ -329,32 +328,19 @@ impl Plan {
         if explanation.is_none() {
             return;
         }
-        let imagined = waiting.during(PLANNING, || self.plan_if_imagining(outcome, model, task, budget));
-        if let Some(plan) = imagined {
-            say_what_imagining_finds(&plan);
+        let given_up = &proposal.imagination.given_up;
+        for refused in given_up_notes(given_up) {
+            anstream::eprintln!("{WARNING}note{WARNING:#}: {refused}");
+        }
+        if *outcome == Outcome::Unsolvable
+            && let Ok(options) = self.planning.agent_options(false)
+            && let Some(hint) = waiting.during(PLANNING, || for_task(model, task, options, given_up, budget))
+        {
+            say_hint(&hint);
             return;
         }
         for mismatch in proposal.goal_type_mismatches() {
             anstream::eprintln!("{WARNING}note{WARNING:#}: {mismatch}");
-        }
-    }
-
-    /// The plan that there would be with imagination, if that was not asked for.
-    fn plan_if_imagining(
-        &self,
-        outcome: &Outcome,
-        model: &ActionModel,
-        task: &Task,
-        budget: &Budget,
-    ) -> Option<FoundPlan> {
-        if self.planning.model.imagine || *outcome != Outcome::Unsolvable {
-            return None;
-        }
-        let options = self.planning.agent_options(false).ok()?;
-        let options = Options { imagine: Some(imagine::Options::default()), ..options };
-        match propose(model, task, &Restrictions::default(), &options, &within_a_hint(budget)) {
-            Ok(Proposal { outcome: Outcome::Solved(plan), .. }) => Some(plan),
-            _ => None,
         }
     }
 

@@ -4,6 +4,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use clap::ValueEnum;
 use typelift::agent::{Options, widened};
 use typelift::imagine;
 use typelift::model::{ActionModel, Budget, Task, strict};
@@ -26,12 +27,33 @@ pub(crate) struct ModelArguments {
     /// Imagine actions for goals that cannot be reached with the learned ones
     #[arg(long)]
     pub(crate) imagine: bool,
+    /// Refuse imagined actions that would mix up who does what with what, or refuse none
+    #[arg(long, value_name = "RULE", default_value = "roles", requires = "imagine")]
+    guard: GuardRule,
     /// Use a learned action also where some of its effects hold already
     #[arg(long, alias = "plain")]
     not_strict: bool,
 }
 
+/// Which imagined actions are refused.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum GuardRule {
+    // Those that would mix up their roles.
+    Roles,
+    // None.
+    Off,
+}
+
 impl ModelArguments {
+    /// How actions are imagined, if they are.
+    pub(crate) fn imagining_options(&self) -> Option<imagine::Options> {
+        let guard = match self.guard {
+            GuardRule::Roles => imagine::Guard::Roles,
+            GuardRule::Off => imagine::Guard::Off,
+        };
+        self.imagine.then_some(imagine::Options { guard })
+    }
+
     /// Reads the model.
     pub(crate) fn read(&self) -> Result<ModelInput, Failure> {
         read_model_input(&self.model, self.types.as_ref())
@@ -73,11 +95,7 @@ impl ModelArguments {
 
     /// How an episode may use the model.
     fn agent_options(&self) -> Options {
-        Options {
-            imagine: self.imagine.then(imagine::Options::default),
-            strict: !self.not_strict,
-            ..Options::default()
-        }
+        Options { imagine: self.imagining_options(), strict: !self.not_strict, ..Options::default() }
     }
 }
 

@@ -23,7 +23,7 @@ use crate::failure::Failure;
 use crate::files::{ModelInput, TaskInput, task_name};
 use crate::limits::{Clock, Interrupt, what_to_try};
 use crate::narrate::Narrator;
-use crate::no_plan::{if_imagining, say_undemonstrated, say_what_imagining_finds};
+use crate::no_plan::{for_episode, say_hint, say_undemonstrated};
 use crate::overwriting::{Output, keep_inputs};
 use crate::planning_options::PlanningOptions;
 use crate::quantities::parse_whole;
@@ -297,9 +297,9 @@ impl Run {
             anstream::eprintln!("{HINT}hint{HINT:#}: {advice}");
         }
         if let (Ending::NoPlan(_), false) = (&account.ending, *quiet || self.planning.json) {
-            let imagines = self.planning.model.imagine;
-            let imagined = narrator.while_planning(|| if_imagining(&episode, imagines, &budget));
-            imagined.iter().for_each(say_what_imagining_finds);
+            let imagining = self.planning.model.imagining_options();
+            let hint = narrator.while_planning(|| for_episode(&episode, imagining, &account.given_up, &budget));
+            hint.iter().for_each(say_hint);
             say_undemonstrated(&input.undemonstrated(), &model, episode.goal(), episode.state());
         }
         session.learn()?;

@@ -7,7 +7,7 @@
 //! | `GetUnreachableGoals`, the queue                 | `lib.rs`          |
 //! | `GetPotentialActions`                            | `potential.rs`    |
 //! | `CreateImaginedAction`                           | `create.rs`       |
-//! | when a proposal is given up                      | `guard.rs`        |
+//! | when a proposal is given up, and what was          | `guard.rs`, `given_up.rs` |
 //! | `GetUnreachablePreconds`                         | `preconditions.rs`|
 //! | `CreateSubstitutedAction`                        | `substitute.rs`   |
 //!
@@ -16,6 +16,7 @@
 #![deny(missing_docs)]
 
 mod create;
+mod given_up;
 mod guard;
 mod potential;
 mod preconditions;
@@ -26,6 +27,7 @@ use std::collections::{BTreeSet, VecDeque};
 use typelift_model::{ActionModel, ActionSchema, Budget, GroundAtom, HashMap, Stop, Symbol, Task, TypeId, UniqueNames};
 use typelift_plan::{Reachable, Restrictions};
 
+pub use given_up::{Because, GivenUp};
 pub use guard::Guard;
 
 /// How actions are imagined.
@@ -42,8 +44,8 @@ pub struct Imagination {
     pub actions: Vec<ActionSchema>,
     /// The atoms that could not be reached and were worked through, in order.
     pub unreachable: Vec<GroundAtom>,
-    /// Proposals given up by the guard.
-    pub given_up: usize,
+    /// What the guard gave up, each once, in order.
+    pub given_up: Vec<GivenUp>,
 }
 
 impl Imagination {
@@ -125,8 +127,10 @@ pub fn imagine_from(
         }
         for potential in potential::get_potential_actions(model, &atom) {
             let Some(proposal) = create::create_imagined_action(&context, &potential) else { continue };
-            if guard::gives_up(options.guard, &context, &proposal) {
-                imagination.given_up += 1;
+            if let Some(given_up) = guard::gives_up(options.guard, &context, &proposal) {
+                if !imagination.given_up.contains(&given_up) {
+                    imagination.given_up.push(given_up);
+                }
                 continue;
             }
             for atom in preconditions::get_unreachable_preconds(&context, &proposal) {

@@ -2,12 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 use typelift_agent::{
-    Account, Avoided, Ending, Episode, Failure, LastResorts, SeenDone, StepResult, StoppedAt, Suspect,
+    Account, Avoided, Ending, Episode, Failure, GivenUp, LastResorts, SeenDone, StepResult, StoppedAt, Suspect,
 };
 use typelift_model::{GroundAtom, GroundCall, Plan, Symbol};
 use typelift_plan::Explanation;
 use typelift_world::Verdict;
 
+use crate::given_up::notes;
 use crate::plan::plan_size;
 use crate::text::{Role, Text, count};
 
@@ -27,9 +28,12 @@ pub struct AccountView {
     /// Why there was nothing left to try, as data.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reasons: Option<Explanation<String>>,
-    /// What is to be noted about the goal, in words.
+    /// What is to be noted about the goal and about what was not imagined, in words.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
+    /// What was not imagined since it would have gone too far, where nothing was left to try.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub given_up: Vec<GivenUp>,
     /// Plans proposed, the successful one included.
     pub proposals: u64,
     /// Actions executed, retries included.
@@ -119,7 +123,8 @@ impl AccountView {
                 Ending::NoPlan(explanation) => Some(explanation.clone()),
                 _ => None,
             },
-            notes: account.goal_type_mismatches.iter().map(ToString::to_string).collect(),
+            notes: notes(&account.goal_type_mismatches, &account.given_up),
+            given_up: account.given_up.clone(),
             proposals: account.proposals,
             actions: account.actions,
             plan_length: plan.map(Plan::len),
@@ -254,7 +259,7 @@ pub fn summary(task: &str, account: &Account, planning_ms: u128, told: bool) -> 
     }
     let why = why_not(account, if told { &[] } else { &account.failures });
     lines.extend(why.iter().flat_map(|why| why.lines()).map(|line| Text::new().plain(format!("  {line}"))));
-    let notes = account.goal_type_mismatches.iter();
+    let notes = notes(&account.goal_type_mismatches, &account.given_up).into_iter();
     lines.extend(notes.map(|note| Text::new().plain("  ").with(Role::Warning, "note").plain(format!(": {note}"))));
     lines
 }

@@ -1,10 +1,11 @@
 //! The answer to a planning question: how the search ended, the plans, and why there is none.
 
 use serde::Serialize;
-use typelift_agent::Proposal;
+use typelift_agent::{GivenUp, Proposal};
 use typelift_model::{Plan, Stop, Symbol};
 use typelift_plan::{Explanation, Outcome};
 
+use crate::given_up::notes;
 use crate::plan::PlanView;
 
 /// The answer to a planning question.
@@ -33,9 +34,12 @@ pub struct AnswerView {
     /// The same as data.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reasons: Option<Explanation<String>>,
-    /// What is to be noted about the goal, in words.
+    /// What is to be noted about the goal and about what was not imagined, in words.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
+    /// What was not imagined since it would have gone too far, where there is no plan.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub given_up: Vec<GivenUp>,
 }
 
 impl AnswerView {
@@ -44,6 +48,7 @@ impl AnswerView {
     pub fn of(proposal: &Proposal, plans: &[Plan], last: &Outcome, bytes: u64, seconds: f64) -> Self {
         let report = proposal.report();
         let explanation = plans.is_empty().then(|| why_none(proposal, last)).flatten();
+        let given_up: Vec<GivenUp> = explanation.iter().flat_map(|_| proposal.imagination.given_up.clone()).collect();
         Self {
             outcome: if plans.is_empty() { last.word() } else { "solved" },
             plans: plans.iter().map(|plan| PlanView::of(plan, &proposal.model.hierarchy)).collect(),
@@ -53,7 +58,8 @@ impl AnswerView {
             evaluations: report.evaluations,
             bytes,
             seconds,
-            notes: explanation.iter().flat_map(|_| proposal.goal_type_mismatches()).map(|m| m.to_string()).collect(),
+            notes: if explanation.is_some() { notes(&proposal.goal_type_mismatches(), &given_up) } else { Vec::new() },
+            given_up,
             explanation: explanation.as_ref().map(Explanation::to_string),
             reasons: explanation,
         }

@@ -12,6 +12,7 @@
 //! | `action.rs`      | actions and axioms of a model                           |
 //! | `difference/`    | how two models differ                                   |
 //! | `learning.rs`    | what learning could make nothing of, and took too far   |
+//! | `given_up.rs`    | what is to be noted where there is no plan              |
 //! | `account.rs`     | how an episode went                                     |
 //! | `event.rs`       | what happens during an episode                          |
 //! | `why.rs`         | what is believed of a call                              |
@@ -23,6 +24,7 @@ mod action;
 mod answer;
 mod difference;
 mod event;
+mod given_up;
 mod inspection;
 mod learning;
 mod plan;
@@ -37,6 +39,7 @@ pub use difference::{
     ActionDifference, ListDifference, ModelDifference, difference, difference_lines, evidence_difference,
 };
 pub use event::line;
+pub use given_up::given_up_notes;
 pub use inspection::{FindingView, InspectionView, TriedView, inspection_lines};
 pub use learning::{TypeNote, missing_actor, unbounded_parameters, why_unexplained};
 pub use plan::{PlanView, StepView, imagined_note, numbered_steps, plan_size};

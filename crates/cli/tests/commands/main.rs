@@ -16,6 +16,7 @@ mod environments;
 mod exporting;
 mod given;
 mod help;
+mod imagining;
 mod interrupts;
 mod lab;
 mod lab_report;
