@@ -26,8 +26,9 @@ The environment is reset twice alike, if it can be reset, and observed several
 times in a row; then the actions of --act are carried out. What is compared is
 what learning sees: flicker, states that have not settled, entities that come
 and go, keys that are left out at times, lists where an id is meant, words with
-too many values or that differ in case only, numbers with few. If it ends
-halfway, or is stopped, what was found so far is said.
+too many values or that differ in case only, numbers with few or that the seed
+does not decide, what every action changes. If it ends halfway, or is stopped,
+what was found so far is said.
 
 Exit codes: 0 nothing hurts, 12 something hurts, 31 bad input, 35 the
 environment failed, 36 wrong usage. What only may hurt leaves the code as it is.")]

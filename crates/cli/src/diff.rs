@@ -55,7 +55,8 @@ impl Diff {
         if self.json {
             writeln!(out, "{}", serde_json::to_string(&found).unwrap_or_default())?;
         } else {
-            for line in difference_lines(&found) {
+            let [one, other] = [&self.first, &self.second].map(|file| file.display().to_string());
+            for line in difference_lines(&found, [&one, &other]) {
                 writeln!(out, "{}", painted(&line))?;
             }
         }

@@ -1,14 +1,11 @@
 //! `typelift learn`.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use typelift::learn::{self, Options, evidence_of, learn_evidence};
-use typelift::model::{
-    ClusterKey, GroundAtom, LearnedModel, LiftedAtom, Observations, SourceId, Symbol, Unexplained, did_you_mean,
-    name_with_arity, predicate_told_apart,
-};
+use typelift::model::{LearnedModel, SourceId, Symbol, Unexplained, did_you_mean, name_with_arity};
 use typelift::words::{TypeNote, missing_actor, unbounded_parameters};
 use typelift::world::{
     Dataset, FileError, LeftOut, ObjectTypes, Repeated, TrajectoryContext, Unlisted, demonstrations_at, read_dataset,
@@ -19,6 +16,7 @@ use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::warn;
 use crate::learn_actor;
+use crate::learn_changes::{Changes, flickering};
 use crate::learn_into::{self, add, beginning, forget};
 use crate::learn_report::{Report, print_counts};
 use crate::limits::{Clock, Limits};
@@ -99,6 +97,8 @@ struct Learned {
     report: learn::Report,
     /// What follows from where types meet, and may not be meant.
     notes: Vec<TypeNote>,
+    /// What changes in the traces.
+    changes: Changes,
 }
 
 impl Learn {
@@ -178,7 +178,6 @@ impl Learn {
         if self.compact {
             evidence.compact();
         }
-        warn_of_left_out(&dataset.left_out);
         let actor = learn_actor::declared(self.actor.as_deref());
         let now = Options { individual: self.individual, actor: actor.clone() };
         let options = learn_into::options(&options, now);
@@ -187,17 +186,20 @@ impl Learn {
             let types: Vec<Symbol> = dataset.hierarchy.types().map(|t| dataset.hierarchy.name(t).clone()).collect();
             learn_actor::unknown(&error, &types)
         })?;
-        learn_actor::refuse_absent(actor.as_ref(), &model.model, &model.evidence.total())?;
+        // Who acts may be missing because of what was left out; where all goes well, that is said with the other warnings.
+        learn_actor::refuse_absent(actor.as_ref(), &model.model, &model.evidence.total())
+            .inspect_err(|_| warn_of_left_out(&dataset.left_out))?;
         (model.domain, model.model.constants) = (domain, constants);
         model.declare(declared_predicates);
         let missing_actor = report.no_actor.as_ref().and_then(|why| missing_actor(why, actor_before.as_ref()));
         let notes = missing_actor.into_iter().chain(unbounded_parameters(&model.model)).collect();
-        Ok(Learned { dataset, type_warnings, known, model, report, notes })
+        let changes = Changes::of(&dataset, &model.parse.by_arity);
+        Ok(Learned { dataset, type_warnings, known, model, report, notes, changes })
     }
 
     /// `--dry-run`: what would be learned from.
     fn describe(&self, out: &mut impl Write, learned: &Learned) -> Result<(), Failure> {
-        let Learned { dataset, model, report, notes, .. } = learned;
+        let Learned { dataset, model, report, notes, changes, .. } = learned;
         let mut types: BTreeMap<&Symbol, usize> = BTreeMap::new();
         for trace in &dataset.traces {
             for ty in trace.states.first().into_iter().flat_map(|state| state.objects.values()) {
@@ -208,32 +210,13 @@ impl Learn {
         for (name, entities) in types {
             writeln!(out, "  {name:<24} {entities:>6}")?;
         }
-        let in_model = |atom: &GroundAtom| predicate_told_apart(&model.parse.by_arity, &atom.predicate, atom.arity());
-        let mut changes: BTreeMap<Symbol, (usize, usize)> = BTreeMap::new();
-        for transition in dataset.transitions() {
-            let mut changed: Vec<Symbol> = Vec::new();
-            let effect = transition.before.added(transition.after).chain(transition.before.deleted(transition.after));
-            for atom in effect {
-                let predicate = in_model(atom);
-                if !changed.contains(&predicate) {
-                    changed.push(predicate);
-                }
-            }
-            for predicate in changed {
-                changes.entry(predicate).or_default().0 += 1;
-            }
-            let held: BTreeSet<Symbol> = transition.before.atoms.iter().map(in_model).collect();
-            for predicate in held {
-                changes.entry(predicate).or_default().1 += 1;
-            }
-        }
-        let transitions = dataset.transitions().count();
+        let transitions = changes.transitions;
         writeln!(
             out,
             "{HEAD}predicates{HEAD:#} (of {transitions} transitions: in how many one changed, one held before)"
         )?;
         for (predicate, types) in &model.model.predicates {
-            let (changed, held) = changes.get(predicate).copied().unwrap_or_default();
+            let (changed, held) = changes.changed_and_held(predicate);
             let note = if changed == transitions { "  changes every time" } else { "" };
             writeln!(out, "  {:<24} {changed:>6} {held:>6}{note}", name_with_arity(predicate, types.len()).as_str())?;
         }
@@ -297,9 +280,17 @@ impl Learn {
             };
             anstream::eprintln!("{WARNING}warning{WARNING:#}: nothing was learned: {why}");
         }
+        let every_time = learned.changes.every_time();
+        for predicate in &every_time {
+            let source = dataset.attributes.get(*predicate).unwrap_or(predicate);
+            anstream::eprintln!("{WARNING}warning{WARNING:#}: {predicate} changes every time, whatever the action");
+            anstream::eprintln!(
+                "{HINT}hint{HINT:#}: it makes one action look like several; if no action needs it, --ignore {source}"
+            );
+        }
         let (single, actions) = (report.single_support, report.generalized);
         let Some((predicate, fewer, all)) = flickering(&model.evidence.total()) else { return };
-        if self.individual || single * 2 <= actions {
+        if self.individual || single * 2 <= actions || every_time.contains(&&predicate) {
             return;
         }
         let source = dataset.attributes.get(&predicate).unwrap_or(&predicate);
@@ -324,25 +315,4 @@ fn warn_of_left_out(left_out: &[LeftOut]) {
 /// Whether a file has this content already.
 fn is_written(path: &Path, text: &str) -> bool {
     std::fs::read(path).is_ok_and(|written| written == text.as_bytes())
-}
-
-/// The predicate without which there would be the fewest kinds of effect, and how many those would be, and are; none if
-/// there would not be fewer. A kind is what could be generalized into one action, whatever the types.
-fn flickering(observations: &Observations) -> Option<(Symbol, usize, usize)> {
-    let clusters: Vec<&ClusterKey> = observations.clusters.keys().collect();
-    let kinds = |left_out: Option<&Symbol>| {
-        let kind = |key: &&ClusterKey| {
-            let names = |atoms: &[LiftedAtom]| {
-                let names = atoms.iter().map(|atom| atom.predicate.clone()).filter(|name| Some(name) != left_out);
-                names.collect::<Vec<_>>()
-            };
-            (key.action.clone(), names(&key.adds), names(&key.deletes))
-        };
-        clusters.iter().map(kind).collect::<BTreeSet<_>>().len()
-    };
-    let atoms = clusters.iter().flat_map(|key| key.adds.iter().chain(&key.deletes));
-    let predicates: BTreeSet<&Symbol> = atoms.map(|atom| &atom.predicate).collect();
-    let (fewest, predicate) = predicates.into_iter().map(|predicate| (kinds(Some(predicate)), predicate)).min()?;
-    let all = kinds(None);
-    (fewest < all).then(|| (predicate.clone(), fewest, all))
 }

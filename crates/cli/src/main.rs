@@ -18,6 +18,7 @@ mod kitchen;
 mod lab;
 mod learn;
 mod learn_actor;
+mod learn_changes;
 mod learn_into;
 mod learn_report;
 mod limits;

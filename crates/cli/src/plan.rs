@@ -140,6 +140,8 @@ impl Plan {
             self.say_replaced(&existing, file, plans.len());
         }
         let exit = match &last {
+            // Whoever stops it while it looks for more is told so; what was found is kept.
+            Outcome::Stopped(Stop::Cancelled) => Exit::Interrupted,
             _ if !plans.is_empty() => Exit::Success,
             Outcome::Stopped(stop) => (*stop).into(),
             _ => Exit::Unsolvable,

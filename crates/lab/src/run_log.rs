@@ -99,10 +99,7 @@ where
     /// [`FileError`] if the folder cannot be written to, if another process is writing to it, if the runs there are of
     /// another experiment, version or settings, or if a line cannot be read. Nothing is changed then.
     pub fn open(folder: &Path, header: Header, fresh: bool) -> Result<Self, FileError> {
-        create_dir_all(folder).map_err(|error| match error.kind() {
-            io::ErrorKind::AlreadyExists => FileError::new(folder, "this is a file, not a folder"),
-            _ => FileError::from_write(folder, &error),
-        })?;
+        create_dir_all(folder).map_err(|error| FileError::from_write(folder, &error))?;
         let path = folder.join(FILE_NAME);
         let failed = |error: io::Error| FileError::from_write(&path, &error);
         let mut options = OpenOptions::new();

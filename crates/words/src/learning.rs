@@ -36,24 +36,22 @@ pub struct TypeNote {
 }
 
 /// Each parameter that anything at all may fill, since the types that were merged have nothing in common; in the order of
-/// the model's actions. In time of a look at what the actions rest on.
+/// the model's actions. What a type of one's own above all others has below it is anything, as what the root has is. In time
+/// of a look at the types and at what the actions rest on.
 pub fn unbounded_parameters(model: &ActionModel) -> Vec<TypeNote> {
-    let root = model.hierarchy.root();
-    let root_name = model.hierarchy.name(root);
+    let hierarchy = &model.hierarchy;
+    let top = hierarchy.top();
     let mut notes = Vec::new();
     for action in &model.actions {
-        for (index, parameter) in action.parameters.iter().enumerate().filter(|(_, parameter)| parameter.ty == root) {
-            let met = types_met(action, index);
-            // Where something of the top type itself was seen, nothing rose.
-            if met.len() < 2 || met.contains(root_name) {
+        for (index, parameter) in action.parameters.iter().enumerate() {
+            let (met, all) = (types_met(action, index), hierarchy.name(parameter.ty));
+            // Where something of that type itself was seen, nothing rose.
+            if !hierarchy.is_a(top, parameter.ty) || met.len() < 2 || met.contains(all) {
                 continue;
             }
             let (name, types) = (&parameter.name, joined(met.iter().copied(), "and"));
             notes.push(TypeNote {
-                text: format!(
-                    "{} takes anything as ?{name}: {types} have nothing in common but {root_name}",
-                    action.name
-                ),
+                text: format!("{} takes anything as ?{name}: {types} have nothing in common but {all}", action.name),
                 action: Some(action.name.clone()),
                 parameter: Some(name.clone()),
                 met: met.into_iter().cloned().collect(),

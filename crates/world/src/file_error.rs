@@ -108,6 +108,7 @@ impl FileError {
     pub fn from_write(file: &Path, error: &io::Error) -> Self {
         match error.kind() {
             io::ErrorKind::NotFound => Self::new(file, "there is no such folder to write to"),
+            io::ErrorKind::AlreadyExists => Self::new(file, "this is a file, not a folder"),
             io::ErrorKind::NotADirectory => Self::new(file, "a part of this path is a file, not a folder"),
             _ => Self::from_io(file, error),
         }

@@ -1,6 +1,7 @@
 //! What Ctrl-C, and a request to terminate, do to a program that waits for somebody.
 #![cfg(unix)]
 
+use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
@@ -178,4 +179,23 @@ fn interrupted_while_somebody_is_asked() {
     let (code, said) = interrupted(&folder, "run kitchen.json K/tasks/T1.1.json --kitchen --confirm=all");
     assert_eq!(code, Some(130), "{said}");
     assert!(said.ends_with("[s]top: no answer: stopped\n"), "{said}");
+}
+
+/// What was found is told and written, and that it was stopped is not passed over.
+#[test]
+fn interrupted_while_further_plans_are_looked_for() {
+    let folder = Folder::kitchen();
+    let mut program = program("plan kitchen.json K/tasks/T1.1.json --plans 1000 -o found");
+    program.current_dir(folder.path("")).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = program.spawn().expect("the program starts");
+    let mut told = BufReader::new(child.stdout.take().expect("it is a pipe")).lines();
+    let first = told.next().expect("a line").expect("text");
+    assert!(first.starts_with("plan 1: "), "{first}");
+    let killed = Command::new("kill").arg("-INT").arg(child.id().to_string()).status();
+    assert!(killed.expect("there is kill").success());
+    told.for_each(drop);
+    let ended = child.wait_with_output().expect("it ends");
+    let said = String::from_utf8_lossy(&ended.stderr);
+    assert!(ended.status.code() == Some(130) && said.contains("no further plan: stopped"), "{ended:?}");
+    assert!(folder.path("found").exists() || folder.path("found.1").exists(), "{said}");
 }

@@ -110,3 +110,10 @@ fn a_killed_run_leaves_every_step_that_it_told_of() {
         assert!(recorded == told || recorded == told + 1, "kill {number}: told of {told}, recorded {recorded}");
     }
 }
+
+#[test]
+fn a_record_goes_to_a_folder() {
+    let folder = Folder::kitchen();
+    let refused = folder.refuses(31, "run kitchen.json K/tasks/T1.1.json --kitchen --record kitchen.json");
+    assert_eq!(refused.err, "error: kitchen.json: this is a file, not a folder\n");
+}

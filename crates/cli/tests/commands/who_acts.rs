@@ -74,7 +74,8 @@ fn models_differ_in_who_acts_and_not_in_how_often_it_was_seen() {
     folder.run("learn --into before.json --actor none -o nobody.json -q").succeeds();
     let ended = folder.run("diff before.json nobody.json");
     // What acts is not in the names of actions.
-    let differs = "actor\n  - fork\n  + none\nlift-box / lift-fork-box\nlower-box-dock / lower-fork-box-dock\n";
+    let differs = "- before.json\n+ nobody.json\nactor\n  - fork\n  + none\nlift-box / lift-fork-box\n  only the name differs\n\
+                   lower-box-dock / lower-fork-box-dock\n  only the name differs\n";
     assert_eq!((ended.code, ended.out.as_str()), (12, differs), "{ended}");
     folder.run("learn --into before.json again.jsonl -o more.json -q").succeeds();
     let ended = folder.run("diff before.json more.json");
@@ -82,7 +83,7 @@ fn models_differ_in_who_acts_and_not_in_how_often_it_was_seen() {
         (ended.code, ended.out.as_str()),
         (
             0,
-            "the same\n\
+            "- before.json\n+ more.json\nthe same\n\
              learned from\n  - 1 demonstration\n  - 2 transitions\n  + 2 demonstrations\n  + 3 transitions\n"
         ),
         "{ended}"
@@ -98,4 +99,32 @@ fn models_differ_in_who_acts_and_not_in_how_often_it_was_seen() {
         ended.code == 0 && ended.out.contains("  - 0 failures\n") && ended.out.contains("  + 1 failure\n"),
         "{ended}"
     );
+}
+
+/// A yard in snapshots, of which the fork's load is left out where it has none.
+#[test]
+fn what_is_left_out_at_times_is_warned_of_once() {
+    let folder = yard();
+    let state = |load: &str, seen: bool| {
+        format!(
+            r#"{{"state":{{"entities":[{{"id":"fork_1","type":"fork","relations":{{{load}}}}},
+               {{"id":"box_1","type":"box","attributes":{{"seen":{seen}}}}}]}}}}"#
+        )
+        .replace('\n', "")
+    };
+    let action = |name: &str| format!(r#"{{"action":{{"name":"{name}","args":["fork_1","box_1"]}}}}"#);
+    let lines = [
+        r#"{"format":"trace/1"}"#.to_owned(),
+        state("", false),
+        action("lift"),
+        state(r#""load":"box_1""#, false),
+        action("look"),
+        state(r#""load":"box_1""#, true),
+    ];
+    folder.write("load.jsonl", lines.join("\n") + "\n");
+    let warning = "warning: the relation `load` of fork_1 is left out in some states, and in others it is there\n";
+    for (code, options) in [(0, ""), (0, "--json"), (0, "--dry-run"), (31, "--actor lorry")] {
+        let ended = folder.run(&format!("learn load.jsonl --types types.json -o m.json {options}"));
+        assert_eq!((ended.code, ended.err.matches(warning).count()), (code, 1), "{options}: {ended}");
+    }
 }

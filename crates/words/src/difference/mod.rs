@@ -242,9 +242,14 @@ fn changes(
     }
 }
 
-/// The difference in lines: `-` before what only the first has, `+` before what only the second has.
-pub fn difference_lines(found: &ModelDifference) -> Vec<Text> {
+/// The difference in lines: `-` before what only the first has, `+` before what only the second has, and first of all
+/// before the `names` of the two.
+pub fn difference_lines(found: &ModelDifference, names: [&str; 2]) -> Vec<Text> {
     let mut lines = Vec::new();
+    if *found != (ModelDifference { same: true, ..ModelDifference::default() }) {
+        lines.push(Text::new().with(Role::Bad, format!("- {}", names[0])));
+        lines.push(Text::new().with(Role::Good, format!("+ {}", names[1])));
+    }
     if found.same {
         lines.push(Text::new().with(Role::Good, "the same"));
     }
@@ -268,6 +273,9 @@ pub fn difference_lines(found: &ModelDifference) -> Vec<Text> {
             ("deletes", &action.deletes),
             ("costs", &action.costs),
         ];
+        if parts.iter().all(|(_, list)| list.is_empty()) {
+            lines.push(Text::new().plain("  ").with(Role::Aside, "only the name differs"));
+        }
         for (what, list) in parts {
             push_list(&mut lines, 2, what, list);
         }

@@ -21,13 +21,16 @@ use thiserror::Error;
 use typelift_model::{GroundCall, Hierarchy, ParseConfig, ROOT, State, Symbol, nearest};
 
 use crate::{DoubtfulParent, Parser, Reset, Scene, UnreadKey, World, WorldError};
-use comparing::compare;
+use comparing::{Place, changed_places, compare, differing_numbers};
 use sightings::Sightings;
 
 pub use problem::{Change, Finding, Problem};
 
 /// How often the world is observed in a row. What flickers seldom does so at the first look.
 const OBSERVATIONS: usize = 5;
+
+/// Where fewer actions do not speak of what all of them changed, it may still be by chance.
+const ACTIONS: usize = 3;
 
 /// What an environment is tried with.
 #[derive(Debug, Clone, Default)]
@@ -141,28 +144,32 @@ impl Inspector {
 
     /// All that is done with the world.
     fn try_all(&mut self, world: &mut dyn World, options: &InspectOptions) -> Result<(), WorldError> {
-        let mut set_up = Vec::new();
+        let (mut set_up, mut reset) = (Vec::new(), Vec::new());
         if world.can_reset() {
             for place in ["reset", "second reset"] {
                 place.clone_into(&mut self.asked);
                 let scene = world.reset(&options.reset)?;
                 set_up.push(self.look(place, &scene));
+                reset.push(scene);
             }
         }
-        let mut observed = Vec::new();
+        let (mut observed, mut scenes) = (Vec::new(), Vec::new());
         for _ in 0..OBSERVATIONS {
             let scene = self.observe(world)?;
             observed.push(self.look("observe", &scene));
+            scenes.push(scene);
         }
         self.compare_observations(&observed);
         if let [first, second] = set_up.as_slice() {
             self.compare_resets(options.reset.seed, first.as_ref(), second.as_ref());
+            self.compare_numbers(options.reset.seed, &reset, &scenes);
             self.compare_settled("reset", second.as_ref(), observed[0].as_ref());
         }
         let mut before = observed.pop().flatten();
         for call in &options.calls {
             before = self.try_call(world, call, before.as_ref())?;
         }
+        self.compare_changes();
         Ok(())
     }
 
@@ -258,6 +265,43 @@ impl Inspector {
             && let Some(change) = compare(first, second, &self.flickering_predicates())
         {
             self.find("reset", Problem::NotRepeatable { seed, change });
+        }
+    }
+
+    /// Where two resets show the same atoms: whether they show the same numbers, but for those that change by themselves.
+    fn compare_numbers(&mut self, seed: u64, reset: &[Scene], observed: &[Scene]) {
+        let differing = |scenes: &[Scene]| {
+            let pairs = scenes.windows(2);
+            pairs.flat_map(|pair| differing_numbers(&pair[0], &pair[1], self.parser.config())).collect::<BTreeSet<_>>()
+        };
+        let restless = differing(observed);
+        let names: BTreeSet<Symbol> = differing(reset).difference(&restless).cloned().collect();
+        let told = |finding: &Finding| matches!(finding.problem, Problem::NotRepeatable { .. });
+        if !names.is_empty() && !self.findings.iter().any(told) {
+            self.find("reset", Problem::NumbersNotRepeatable { seed, names });
+        }
+    }
+
+    /// Looks for what changed with every action that was executed, though several do not speak of it.
+    fn compare_changes(&mut self) {
+        let executed: Vec<&Tried> = self.tried.iter().filter(|tried| tried.executed).collect();
+        let (sources, actions) = (self.parser.attributes(), executed.len());
+        // Of each place how many actions changed it, and the names of those that do not speak of it.
+        let mut changed: BTreeMap<Place, (usize, Vec<&Symbol>)> = BTreeMap::new();
+        for Tried { call, change, .. } in executed {
+            for (place, is_apart) in change.iter().flat_map(|change| changed_places(change, call, &sources)) {
+                let (times, apart) = changed.entry(place).or_default();
+                *times += 1;
+                apart.extend(is_apart.then_some(&call.name));
+            }
+        }
+        let is_restless = |(times, apart): &(usize, Vec<&Symbol>)| {
+            *times == actions && apart.len() >= ACTIONS && apart.iter().any(|name| *name != apart[0])
+        };
+        let places: Vec<Place> =
+            changed.into_iter().filter(|(_, changed)| is_restless(changed)).map(|(place, _)| place).collect();
+        for (name, entity) in places {
+            self.find("state", Problem::ChangesEveryTime { name, entity, actions });
         }
     }
 

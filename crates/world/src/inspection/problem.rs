@@ -109,6 +109,14 @@ pub enum Problem {
         /// How the second differs from the first.
         change: Change,
     },
+    /// The same seed gives the same atoms, but other numbers.
+    #[error("two resets with seed {seed} differ in numbers only: {}", listed(.names))]
+    NumbersNotRepeatable {
+        /// The seed.
+        seed: u64,
+        /// The attributes that differ.
+        names: BTreeSet<Symbol>,
+    },
     /// The state goes on changing after the answer.
     #[error("what is observed right after the answer differs from it: {change}")]
     NotSettled {
@@ -132,6 +140,16 @@ pub enum Problem {
     /// An action that was executed changes nothing that can be seen.
     #[error("it was executed, and no atom changed")]
     ChangesNothing,
+    /// Every action changes it, also those that do not speak of it.
+    #[error("all {actions} actions that were executed changed `{name}`{}, whatever they were", of(.entity.as_ref()))]
+    ChangesEveryTime {
+        /// The attribute or relation; of a symbolic state, the predicate.
+        name: Symbol,
+        /// The entity that has it.
+        entity: Option<Symbol>,
+        /// How many actions were executed.
+        actions: usize,
+    },
     /// An action that was not executed changes something.
     #[error("it was not executed, and yet something changed: {change}")]
     ChangesUnexecuted {
@@ -231,10 +249,12 @@ impl Problem {
             Self::UnknownType { .. } => "unknown_type",
             Self::TypeChanges { .. } => "type_changes",
             Self::NotRepeatable { .. } => "not_repeatable",
+            Self::NumbersNotRepeatable { .. } => "numbers_not_repeatable",
             Self::NotSettled { .. } => "not_settled",
             Self::Flickers { .. } => "flickers",
             Self::EntitiesChange { .. } => "entities_change",
             Self::ChangesNothing => "changes_nothing",
+            Self::ChangesEveryTime { .. } => "changes_every_time",
             Self::ChangesUnexecuted { .. } => "changes_unexecuted",
             Self::NoSuchEntity { .. } => "no_such_entity",
             Self::NothingIgnored { .. } => "nothing_ignored",
@@ -254,7 +274,9 @@ impl Problem {
     pub fn is_certain(&self) -> bool {
         !matches!(
             self,
-            Self::ChangesNothing
+            Self::NumbersNotRepeatable { .. }
+                | Self::ChangesNothing
+                | Self::ChangesEveryTime { .. }
                 | Self::NoSuchEntity { .. }
                 | Self::NothingIgnored { .. }
                 | Self::LeftOut(_)
@@ -284,6 +306,9 @@ impl Problem {
             Self::NotRepeatable { .. } => "Draw all chance from the seed that `reset` is given. Otherwise a task cannot be \
                                            planned from its state, nor tried again with --restart."
                 .to_owned(),
+            Self::NumbersNotRepeatable { .. } => "Numbers give no atoms, but what an action does may depend on them. Draw all \
+                                                  chance from the seed that `reset` is given."
+                .to_owned(),
             Self::NotSettled { .. } => {
                 "Answer only when the world has come to rest, with the state after that.".to_owned()
             }
@@ -299,6 +324,10 @@ impl Problem {
             Self::ChangesNothing => "Learning takes this for a failure. What an action changes must be a relation, a word, \
                                      or true or false."
                 .to_owned(),
+            Self::ChangesEveryTime { name, .. } => format!(
+                "What changes whatever the action, such as a clock, makes one action look like several. If no action needs \
+                 it, leave it out, with --ignore {name} for example."
+            ),
             Self::ChangesUnexecuted { .. } => "Learning takes it for a failure, and does not learn the change: say \
                                                \"executed\":true where the action was carried out."
                 .to_owned(),
@@ -336,4 +365,8 @@ fn listed(names: &BTreeSet<Symbol>) -> String {
         0 => "entities".to_owned(),
         _ => names.iter().map(Symbol::as_str).collect::<Vec<_>>().join(", "),
     }
+}
+
+fn of(entity: Option<&Symbol>) -> String {
+    entity.map(|entity| format!(" of {entity}")).unwrap_or_default()
 }

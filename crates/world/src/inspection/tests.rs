@@ -272,3 +272,41 @@ fn what_was_found_before_it_broke_off_is_kept() {
         assert_eq!((found.broken_off.as_deref(), found.findings.len()), (Some(asked), findings), "{found:?}");
     }
 }
+
+#[test]
+fn numbers_that_the_seed_does_not_decide_may_hurt() {
+    let weighing = |mass: &str| pump(&format!(r#""mass":{mass},"on":true"#), "");
+    let (light, heavy) = (weighing("1.5"), weighing("2.5"));
+    let (light, heavy) = (light.as_str(), heavy.as_str());
+    assert_eq!(shown(&[light, heavy]), ["reset: two resets with seed 0 differ in numbers only: mass"]);
+    assert_eq!(shown(&[&weighing("[1,2]"), &weighing("[1,3]")]).len(), 1, "a list of numbers, too");
+    // A measurement is never the same twice, and where atoms differ, too, that is said.
+    assert_eq!(shown(&[light, heavy, light, heavy, light, heavy, light]), Vec::<String>::new());
+    let off = pump(r#""mass":2.5,"on":false"#, "");
+    assert_eq!(shown(&[light, &off]), ["reset: two resets with seed 0 differ: -on(pump_1)"]);
+    let ignoring = ParseConfig { ignore: BTreeSet::from([Symbol::new("pump.mass")]), ..ParseConfig::default() };
+    let options = InspectOptions { parse: ignoring, ..InspectOptions::default() };
+    assert_eq!(findings(Scripted::showing(&[light, heavy]), &options), Vec::<String>::new());
+}
+
+#[test]
+fn what_every_action_changes_may_be_no_effect_of_any() {
+    let scene = |tick: &str, feeds: &str| pump(&format!(r#""tick":{tick}"#), &format!(r#""feeds":{feeds}"#));
+    let (even, odd) = (scene("false", "null"), scene("true", r#""tank_1""#));
+    let acting = |calls: &[(&str, &str)]| {
+        // The answer to each action, and what is observed after it.
+        let mut scenes = vec![even.as_str(); BEFORE_CALLS];
+        scenes.extend((0..calls.len()).flat_map(|at| [if at % 2 == 0 { &odd } else { &even }; 2]).map(String::as_str));
+        let call = |(name, arg): &(&str, &str)| GroundCall { name: Symbol::new(name), args: vec![Symbol::new(arg)] };
+        let calls = calls.iter().map(call).collect();
+        findings(Scripted::showing(&scenes), &InspectOptions { calls, ..InspectOptions::default() })
+    };
+    let told = |n| format!("state: all {n} actions that were executed changed `tick` of pump_1, whatever they were");
+    // What it feeds is the tank that the actions are told of.
+    assert_eq!(acting(&[("open", "tank_1"), ("shut", "tank_1"), ("open", "tank_1")]), [told(3)]);
+    let calls = [("open", "tank_1"), ("start", "pump_1"), ("shut", "tank_1"), ("open", "tank_1")];
+    assert_eq!(acting(&calls), [told(4)], "one of them is about the pump");
+    assert_eq!(acting(&[("open", "tank_1"), ("shut", "tank_1")]), Vec::<String>::new(), "two are too few");
+    assert_eq!(acting(&[("turn", "tank_1"); 3]), Vec::<String>::new(), "the one action may do that");
+    assert_eq!(acting(&[("start", "pump_1"), ("stop", "pump_1"), ("start", "pump_1")]), Vec::<String>::new());
+}

@@ -1,0 +1,97 @@
+//! What changes in the demonstrations that `learn` reads, and what of it seems to change by itself.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use typelift::model::{ClusterKey, GroundAtom, LiftedAtom, Observations, Symbol, predicate_told_apart};
+use typelift::world::{Dataset, Transition};
+
+/// In fewer transitions, what all of them change may still be by chance.
+const TRANSITIONS: usize = 3;
+
+/// How often the atoms of each predicate changed.
+pub(crate) struct Changes {
+    pub(crate) transitions: usize,
+    calls: BTreeSet<Symbol>,
+    predicates: BTreeMap<Symbol, Changed>,
+}
+
+/// In how many transitions something was so of a predicate.
+#[derive(Default)]
+struct Changed {
+    /// One of its atoms changed.
+    changed: usize,
+    /// One of its atoms held before.
+    held: usize,
+    /// The calls that added an atom of which they do not speak, since it has none of their arguments; and those that
+    /// deleted one.
+    added_by: BTreeSet<Symbol>,
+    deleted_by: BTreeSet<Symbol>,
+}
+
+impl Changes {
+    /// Counts over all transitions; predicates that are told apart by their arity have the names of the model.
+    pub(crate) fn of(dataset: &Dataset, by_arity: &BTreeSet<Symbol>) -> Self {
+        let in_model = |atom: &GroundAtom| predicate_told_apart(by_arity, &atom.predicate, atom.arity());
+        let mut changes = Self { transitions: 0, calls: BTreeSet::new(), predicates: BTreeMap::new() };
+        for Transition { before, action, after, .. } in dataset.transitions() {
+            changes.transitions += 1;
+            let call = &action.call;
+            changes.calls.insert(call.name.clone());
+            let mut changed = BTreeSet::new();
+            let added = before.added(after).map(|atom| (atom, true));
+            for (atom, is_added) in added.chain(before.deleted(after).map(|atom| (atom, false))) {
+                let predicate = in_model(atom);
+                if !atom.args.iter().any(|arg| call.args.contains(arg)) {
+                    let counts = changes.predicates.entry(predicate.clone()).or_default();
+                    let by = if is_added { &mut counts.added_by } else { &mut counts.deleted_by };
+                    by.insert(call.name.clone());
+                }
+                changed.insert(predicate);
+            }
+            for predicate in before.atoms.iter().map(in_model).collect::<BTreeSet<_>>() {
+                changes.predicates.entry(predicate).or_default().held += 1;
+            }
+            for predicate in changed {
+                changes.predicates.entry(predicate).or_default().changed += 1;
+            }
+        }
+        changes
+    }
+
+    /// In how many transitions an atom of a predicate changed, and in how many one held before.
+    pub(crate) fn changed_and_held(&self, predicate: &Symbol) -> (usize, usize) {
+        self.predicates.get(predicate).map_or((0, 0), |counts| (counts.changed, counts.held))
+    }
+
+    /// The predicates that changed every time whatever was done: the same call now added an atom of which it does not
+    /// speak, and now deleted one, so that it is not the call that decides.
+    pub(crate) fn every_time(&self) -> Vec<&Symbol> {
+        if self.transitions < TRANSITIONS || self.calls.len() < 2 {
+            return Vec::new();
+        }
+        let is_restless =
+            |counts: &Changed| counts.changed == self.transitions && !counts.added_by.is_disjoint(&counts.deleted_by);
+        self.predicates.iter().filter(|(_, counts)| is_restless(counts)).map(|(predicate, _)| predicate).collect()
+    }
+}
+
+/// The predicate without which there would be the fewest kinds of effect, and how many those would be, and are; none if
+/// there would not be fewer. A kind is what could be generalized into one action, whatever the types.
+pub(crate) fn flickering(observations: &Observations) -> Option<(Symbol, usize, usize)> {
+    let clusters: Vec<&ClusterKey> = observations.clusters.keys().collect();
+    let kinds = |left_out: Option<&Symbol>| {
+        let kind = |key: &&ClusterKey| {
+            let names = |atoms: &[LiftedAtom]| {
+                let names = atoms.iter().map(|atom| atom.predicate.clone()).filter(|name| Some(name) != left_out);
+                names.collect::<Vec<_>>()
+            };
+            (key.action.clone(), names(&key.adds), names(&key.deletes))
+        };
+        clusters.iter().map(kind).collect::<BTreeSet<_>>().len()
+    };
+    let atoms = clusters.iter().flat_map(|key| key.adds.iter().chain(&key.deletes));
+    let predicates: BTreeSet<&Symbol> = atoms.map(|atom| &atom.predicate).collect();
+    let (fewest, predicate) = predicates.into_iter().map(|predicate| (kinds(Some(predicate)), predicate)).min()?;
+    let all = kinds(None);
+    (fewest < all).then(|| (predicate.clone(), fewest, all))
+}
