@@ -44,9 +44,11 @@ fn a_goal_is_held_against_what_is_seen_first() {
         }
     };
     let near = |name: &str| Some(Symbol::new(name));
-    assert!(matches!(error("cutt(b)").kind, GoalErrorKind::UnknownPredicate { near } if near == [Symbol::new("cut")]));
+    assert!(
+        matches!(error("cutt(b)").kind, GoalErrorKind::UnknownPredicate { near, .. } if near == [Symbol::new("cut")])
+    );
     assert!(matches!(error("cut(b,saw_1)").kind, GoalErrorKind::Arity { expected: 1 }));
-    let GoalErrorKind::UnknownObject { object, near: found } = error("cut(saw_3)").kind else {
+    let GoalErrorKind::UnknownObject { object, near: found, .. } = error("cut(saw_3)").kind else {
         panic!("it is not there")
     };
     assert!(object == *"saw_3" && (found == near("saw_1") || found == near("saw_2")), "{found:?}");

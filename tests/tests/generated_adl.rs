@@ -306,9 +306,12 @@ impl Known<'_> {
                 assert!(!self.space.states.iter().any(both), "{text}\n{}", self.texts);
                 "exclusive"
             }
-            Explanation::NeverDeleted(atoms) => {
-                let all = |state| atoms.iter().all(|atom| self.said_holds(atom, state));
+            Explanation::NeverDeleted(goals) => {
+                let all = |state| goals.iter().all(|goal| self.said_holds(&goal.atom, state));
                 assert!(self.space.states.iter().all(all), "{text}\n{}", self.texts);
+                for obstacle in goals.iter().filter_map(|goal| goal.nearest.as_ref()).flat_map(|near| &near.obstacles) {
+                    self.check_obstacle(obstacle);
+                }
                 "never deleted"
             }
             Explanation::NotTogether { missing, conflict } => {
@@ -347,6 +350,20 @@ impl Known<'_> {
         }
     }
 
+    fn check_obstacle(&self, obstacle: &Obstacle) {
+        match obstacle {
+            Obstacle::Precondition(said) | Obstacle::Condition(said) => self.assert_never(said),
+            Obstacle::NoObject { ty } => {
+                let mut objects = self.meaning.objects();
+                assert!(!objects.any(|object| self.is_of(object, ty.as_str())), "{obstacle}\n{}", self.texts);
+            }
+            Obstacle::Type { object, expected, .. } => {
+                assert!(!self.is_of(object, expected.as_str()), "{obstacle}\n{}", self.texts);
+            }
+            other => panic!("{other}\n{}", self.texts),
+        }
+    }
+
     fn check_unreached(&self, why: &Unreached, atom: &str) -> &'static str {
         match why {
             // An action may add it as it is written: not where it contradicts itself.
@@ -373,23 +390,7 @@ impl Known<'_> {
                 let action = self.meaning.action(nearest.action.as_str());
                 let adds = action.is_some_and(|action| adds(&action.effect, atom));
                 assert!(adds, "no action {} adds {atom}\n{}", nearest.action, self.texts);
-                for obstacle in &nearest.obstacles {
-                    match obstacle {
-                        Obstacle::Precondition(said) | Obstacle::Condition(said) => self.assert_never(said),
-                        Obstacle::NoObject { ty } => {
-                            let mut objects = self.meaning.objects();
-                            assert!(
-                                !objects.any(|object| self.is_of(object, ty.as_str())),
-                                "{obstacle}\n{}",
-                                self.texts
-                            );
-                        }
-                        Obstacle::Type { object, expected, .. } => {
-                            assert!(!self.is_of(object, expected.as_str()), "{obstacle}\n{}", self.texts);
-                        }
-                        other => panic!("{other}\n{}", self.texts),
-                    }
-                }
+                nearest.obstacles.iter().for_each(|obstacle| self.check_obstacle(obstacle));
                 "nearest"
             }
         }

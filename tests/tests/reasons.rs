@@ -37,14 +37,14 @@ fn an_effect_for_every_choice_of_objects_says_what_it_is_conditional_on() {
     };
     assert_eq!(
         press("", "(forall (?s - ship ?c - crate) (when (on ?c ?s) (tested ?s)))"),
-        "tested(s) cannot be reached: the nearest action is press, but it adds that only with on(any crate,s), which \
-         cannot be reached\ntested(t) cannot be reached: the nearest action is press, but it adds that only with \
+        "tested(s) cannot be reached: the nearest action is press, but it does that only with on(any crate,s), which \
+         cannot be reached\ntested(t) cannot be reached: the nearest action is press, but it does that only with \
          on(any crate,t), which cannot be reached"
     );
     // The effect's own variables are numbered after the action's.
     assert_eq!(
         press("?c - crate", "(and (tested s) (forall (?t - ship) (when (on ?c ?t) (tested ?t))))"),
-        "tested(t) cannot be reached: the nearest action is press, but it adds that only with on(any crate,t), which \
+        "tested(t) cannot be reached: the nearest action is press, but it does that only with on(any crate,t), which \
          cannot be reached"
     );
 }

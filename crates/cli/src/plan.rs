@@ -157,6 +157,10 @@ impl Plan {
             self.report_none(&last, &proposal, &model, &task, &budget, &waiting);
             say_undemonstrated(&undemonstrated, &model, &task.goal, &task.init);
         } else if !quiet {
+            // It never holds, so that a slip in it would pass for a goal that is reached.
+            for mismatch in proposal.goal_type_mismatches().iter().filter(|mismatch| !mismatch.positive) {
+                anstream::eprintln!("{WARNING}note{WARNING:#}: {mismatch}");
+            }
             let limited = if self.better { &budget } else { &for_another };
             self.report_end(&last, plans.len(), limited.expansions);
         }

@@ -23,6 +23,8 @@ pub enum GoalErrorKind {
     UnknownPredicate {
         /// The predicates that may have been meant.
         near: Vec<Symbol>,
+        /// The atom that may have been meant, if its last argument is a value.
+        meant: Option<Box<GroundAtom>>,
     },
     /// Its predicate has another number of arguments.
     Arity {
@@ -35,6 +37,8 @@ pub enum GoalErrorKind {
         object: Symbol,
         /// The object that may have been meant.
         near: Option<Symbol>,
+        /// The atom that may have been meant, if the object is a value.
+        meant: Option<Box<GroundAtom>>,
     },
     /// A type stands in it in place of an object.
     TypeForObject {
@@ -55,14 +59,18 @@ impl GoalErrorKind {
     ) -> Option<Self> {
         Self::of_predicate(atom, predicates).or_else(|| {
             let unknown = atom.args.iter().find(|arg| !state.objects.contains_key(*arg))?;
-            Some(no_object(unknown, state, hierarchy))
+            let meant = valued(atom, predicates).filter(|_| atom.args.last() == Some(unknown));
+            Some(no_object(unknown, meant.map(Box::new), state, hierarchy))
         })
     }
 
     /// What is wrong with an atom's predicate and the number of its arguments, if something is.
     pub fn of_predicate(atom: &GroundAtom, predicates: &ArgumentTypes) -> Option<Self> {
         match predicates.get(&atom.predicate) {
-            None => Some(Self::UnknownPredicate { near: near_predicates(atom, predicates) }),
+            None => Some(Self::UnknownPredicate {
+                near: near_predicates(atom, predicates),
+                meant: valued(atom, predicates).map(Box::new),
+            }),
             Some(types) if types.len() != atom.arity() => Some(Self::Arity { expected: types.len() }),
             Some(_) => None,
         }
@@ -86,7 +94,10 @@ impl GoalErrorKind {
     /// What to do about an atom that must hold, or must not, with which this is wrong; if that is known.
     pub fn hint(&self, atom: &GroundAtom, positive: bool) -> Option<String> {
         match self {
-            Self::UnknownPredicate { near } => {
+            Self::UnknownPredicate { meant: Some(meant), .. } | Self::UnknownObject { meant: Some(meant), .. } => {
+                Some(format!("Write `{}`.", meant.as_goal(positive)))
+            }
+            Self::UnknownPredicate { near, .. } => {
                 let other = OtherNotation::of(&atom.as_goal(positive)).filter(|other| match other {
                     OtherNotation::Literals(literals) => *literals != [(atom.clone(), positive)],
                     OtherNotation::BeyondLiterals(_) => true,
@@ -131,7 +142,7 @@ fn listed(names: &[Symbol]) -> String {
 }
 
 /// What is wrong with a name that is no object's.
-fn no_object(name: &Symbol, state: &State, hierarchy: &Hierarchy) -> GoalErrorKind {
+fn no_object(name: &Symbol, meant: Option<Box<GroundAtom>>, state: &State, hierarchy: &Hierarchy) -> GoalErrorKind {
     match hierarchy.id(name.as_str()) {
         Some(ty) => {
             let of_type = state.objects.iter().filter(|(_, of)| hierarchy.is_a(**of, ty));
@@ -139,9 +150,22 @@ fn no_object(name: &Symbol, state: &State, hierarchy: &Hierarchy) -> GoalErrorKi
         }
         None => {
             let near = nearest(name.as_str(), state.objects.keys()).cloned();
-            GoalErrorKind::UnknownObject { object: name.clone(), near }
+            GoalErrorKind::UnknownObject { object: name.clone(), near, meant }
         }
     }
+}
+
+/// The atom that is meant by one whose last argument is a value, or says that a relation is to nothing: `soil(bed_1,Loose)`,
+/// `in(rose_1,null)` and `in_holds(rose_1,null)` are `soil_Loose(bed_1)` and `in_None(rose_1)`, if there are such predicates.
+fn valued(atom: &GroundAtom, predicates: &ArgumentTypes) -> Option<GroundAtom> {
+    let (value, args) = atom.args.split_last()?;
+    let is_nothing = ["null", "none", "nil"].iter().any(|word| value.as_str().eq_ignore_ascii_case(word));
+    let (name, value) = (atom.predicate.as_str(), if is_nothing { "None" } else { value.as_str() });
+    let name = name.strip_suffix("_holds").filter(|_| is_nothing).unwrap_or(name);
+    let wanted = format!("{name}_{value}");
+    let mut alike = predicates.iter().filter(|(predicate, _)| predicate.as_str().eq_ignore_ascii_case(&wanted));
+    let (predicate, _) = alike.find(|(_, types)| types.len() == args.len())?;
+    Some(GroundAtom { predicate: predicate.clone(), args: args.to_vec() })
 }
 
 /// The predicates that may have been meant: where the attribute is known, that of nearly the same value, or of every value;

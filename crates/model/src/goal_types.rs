@@ -14,6 +14,9 @@ use crate::{ActionModel, Goal, GroundAtom, State, Symbol, nearest};
 pub struct GoalTypeMismatch {
     /// The goal atom.
     pub atom: GroundAtom,
+    /// Whether it must hold; else it must not, and never does.
+    #[serde(default = "holds", skip_serializing_if = "Clone::clone")]
+    pub positive: bool,
     /// The place among its arguments, from 1.
     pub place: usize,
     /// The type of the object in that place.
@@ -25,25 +28,29 @@ pub struct GoalTypeMismatch {
     pub near: Option<GroundAtom>,
 }
 
+fn holds() -> bool {
+    true
+}
+
 impl fmt::Display for GoalTypeMismatch {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { atom, place, found, expected, near } = self;
+        let Self { atom, positive, place, found, expected, near } = self;
         let object = atom.args.get(place.wrapping_sub(1)).map_or("it", Symbol::as_str);
         write!(
             f,
-            "in the goal {atom}: in this model, argument {place} of `{}` is of type {expected}; {object} is of type \
-             {found}",
+            "in the goal {}: in this model, argument {place} of `{}` is of type {expected}; {object} is of type {found}",
+            atom.as_goal(*positive),
             atom.predicate
         )?;
         match near {
-            Some(near) => write!(f, ". Did you mean `{near}`?"),
+            Some(near) => write!(f, ". Did you mean `{}`?", near.as_goal(*positive)),
             None => Ok(()),
         }
     }
 }
 
 impl Goal {
-    /// The required atoms that go beyond the types of which the model has its predicates, in order, each with the first
+    /// The atoms that go beyond the types of which the model has its predicates, in order, each with the first
     /// argument that does.
     ///
     /// ```
@@ -64,11 +71,11 @@ impl Goal {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn type_mismatches(&self, state: &State, model: &ActionModel) -> Vec<GoalTypeMismatch> {
-        self.required.iter().filter_map(|atom| mismatch(atom, state, model)).collect()
+        self.literals().filter_map(|(atom, positive)| mismatch(atom, positive, state, model)).collect()
     }
 }
 
-fn mismatch(atom: &GroundAtom, state: &State, model: &ActionModel) -> Option<GoalTypeMismatch> {
+fn mismatch(atom: &GroundAtom, positive: bool, state: &State, model: &ActionModel) -> Option<GoalTypeMismatch> {
     let hierarchy = &model.hierarchy;
     let expected = model.predicates.get(&atom.predicate)?;
     let first_mismatch = |args: &[Symbol]| {
@@ -91,7 +98,7 @@ fn mismatch(atom: &GroundAtom, state: &State, model: &ActionModel) -> Option<Goa
         nearest(atom.args[place].as_str(), fitting).and_then(|name| with(&|args| args[place] = name.clone()))
     });
     let [found, expected] = [found, expected].map(|ty| hierarchy.name(ty).clone());
-    Some(GoalTypeMismatch { atom: atom.clone(), place: place + 1, found, expected, near })
+    Some(GoalTypeMismatch { atom: atom.clone(), positive, place: place + 1, found, expected, near })
 }
 
 #[cfg(test)]
@@ -107,7 +114,10 @@ mod tests {
         let objects = [("cup_1".into(), id("cup")), ("box_1".into(), id("box")), ("box_2".into(), id("box"))].into();
         let predicates = [("in".into(), vec![id("thing"), id("box")]), ("any".into(), vec![hierarchy.root()])].into();
         let model = ActionModel { hierarchy, predicates, ..ActionModel::default() };
-        let goal = Goal::from(vec![GroundAtom::parse(atom).expect("an atom")]);
+        let (atom, positive) = atom.strip_prefix("not ").map_or((atom, true), |atom| (atom, false));
+        let mut goal = Goal::default();
+        let atoms = if positive { &mut goal.required } else { &mut goal.forbidden };
+        atoms.push(GroundAtom::parse(atom).expect("an atom"));
         let state = State { objects, ..State::default() };
         goal.type_mismatches(&state, &model).first().map(ToString::to_string)
     }
@@ -122,6 +132,13 @@ mod tests {
             said("in(box_1,cup_1)"),
             Some(format!(
                 "in the goal in(box_1,cup_1): {} box_1 is of type box. Did you mean `in(cup_1,box_1)`?",
+                place(1, "thing")
+            ))
+        );
+        assert_eq!(
+            said("not in(box_1,cup_1)"),
+            Some(format!(
+                "in the goal not in(box_1,cup_1): {} box_1 is of type box. Did you mean `not in(cup_1,box_1)`?",
                 place(1, "thing")
             ))
         );

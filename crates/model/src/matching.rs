@@ -97,8 +97,24 @@ impl ActionModel {
         &'a self,
         atom: &'a GroundAtom,
     ) -> impl Iterator<Item = (&'a ActionSchema, &'a Effect, Vec<Option<&'a Symbol>>)> {
+        self.changing(atom, true)
+    }
+
+    /// The effects that may delete an atom, in the same way.
+    pub fn deleting<'a>(
+        &'a self,
+        atom: &'a GroundAtom,
+    ) -> impl Iterator<Item = (&'a ActionSchema, &'a Effect, Vec<Option<&'a Symbol>>)> {
+        self.changing(atom, false)
+    }
+
+    fn changing<'a>(
+        &'a self,
+        atom: &'a GroundAtom,
+        adds: bool,
+    ) -> impl Iterator<Item = (&'a ActionSchema, &'a Effect, Vec<Option<&'a Symbol>>)> {
         let effects = self.actions.iter().flat_map(|schema| schema.effects.iter().map(move |effect| (schema, effect)));
-        effects.filter(|(_, effect)| effect.literal.positive).filter_map(|(schema, effect)| {
+        effects.filter(move |(_, effect)| effect.literal.positive == adds).filter_map(|(schema, effect)| {
             let mut binding = vec![None; schema.parameters.len() + effect.parameters.len()];
             effect.literal.atom.bind(atom, &mut binding, |_, _, _| true)?;
             Some((schema, effect, binding))

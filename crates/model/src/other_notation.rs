@@ -1,9 +1,10 @@
-//! What a text may mean that writes a goal in another notation: `not(p(a))`, `(not (p a))`, `!p(a)`, `p(a) and q(b)`.
+//! What a text may mean that writes a goal in another notation: `not(p(a))`, `(not (p a))`, `!p(a)`, `p(a) and q(b)`,
+//! `p(a) is false`, `colour(a) = Red`.
 //!
 //! It is only ever a guess for a hint, so what is read here is read leniently: parentheses that are missing at the end are
 //! added, and commas are white space. Nothing is guessed of a very long text.
 
-use crate::GroundAtom;
+use crate::{GroundAtom, Symbol};
 
 /// The bytes of the longest text that is looked at: reading it takes as many calls as it has open parentheses.
 const LONGEST: usize = 500;
@@ -22,6 +23,9 @@ impl OtherNotation {
     pub fn of(text: &str) -> Option<Self> {
         if text.len() > LONGEST {
             return None;
+        }
+        if let Some(literal) = equation(text).or_else(|| attribute_and_value(text)) {
+            return Some(Self::Literals(vec![literal]));
         }
         let nodes = read(&mut words(text).into_iter().peekable());
         match formula(&nodes) {
@@ -58,6 +62,47 @@ impl GroundAtom {
     }
 }
 
+/// `p(a) is false`, `p(a) = true`, and what an attribute is, `colour(a) = Red`, of which a snapshot makes `colour_Red(a)`.
+fn equation(text: &str) -> Option<(GroundAtom, bool)> {
+    let (said, value) = [" is ", "==", "!=", "="].iter().find_map(|sign| {
+        let (said, value) = text.split_once(sign)?;
+        Some(((said, *sign != "!="), value.trim()))
+    })?;
+    let (said, is_equal) = said;
+    let literals = formula(&read(&mut words(said).into_iter().peekable())).ok()?;
+    let [(atom, positive)] = literals.as_slice() else { return None };
+    let positive = *positive == is_equal;
+    match value.to_ascii_lowercase().as_str() {
+        "true" => Some((atom.clone(), positive)),
+        "false" => Some((atom.clone(), !positive)),
+        _ if !is_plain(value) => None,
+        _ => {
+            let predicate = Symbol::from(format!("{}_{value}", atom.predicate));
+            Some((GroundAtom { predicate, args: atom.args.clone() }, positive))
+        }
+    }
+}
+
+/// An attribute and its value side by side: `form Cut(a)`, of which a snapshot makes `form_Cut(a)`.
+fn attribute_and_value(text: &str) -> Option<(GroundAtom, bool)> {
+    let (names, arguments) = text.trim().split_once('(')?;
+    let names: Vec<&str> = names.split_whitespace().collect();
+    let [attribute, value] = names[..] else { return None };
+    let is_logic = |name: &str| {
+        let node = Node::Name(name);
+        is_not(name) || is_and(&node) || beyond(&node).is_some()
+    };
+    if is_logic(attribute) || is_logic(value) || !is_plain(attribute) || !is_plain(value) {
+        return None;
+    }
+    GroundAtom::parse(&format!("{attribute}_{value}({arguments}")).ok().map(|atom| (atom, true))
+}
+
+/// Whether a word is a name, or a part of one.
+fn is_plain(word: &str) -> bool {
+    !word.is_empty() && word.chars().all(|c| c.is_alphanumeric() || "_-.".contains(c))
+}
+
 /// A part of the text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Word<'t> {
@@ -76,6 +121,7 @@ fn words(text: &str) -> Vec<Word<'_>> {
     while let Some(first) = rest.chars().next() {
         let length = match first {
             '(' | ')' | ',' | '!' | '~' | '¬' => first.len_utf8(),
+            '-' if rest[1..].starts_with(|c: char| c.is_alphabetic() || c == '(') => 1,
             _ => rest.find(|c: char| c.is_whitespace() || "(),".contains(c)).unwrap_or(rest.len()),
         };
         let (word, behind) = rest.split_at(length);
@@ -84,7 +130,7 @@ fn words(text: &str) -> Vec<Word<'_>> {
             "(" => Some(Word::Open),
             ")" => Some(Word::Close),
             "," => None,
-            "!" | "~" | "¬" => Some(Word::Not),
+            "!" | "~" | "¬" | "-" => Some(Word::Not),
             name if has_arguments => Some(Word::Head(name)),
             name => Some(Word::Name(name)),
         });
@@ -258,6 +304,17 @@ mod tests {
             ("!on(a,b)", "not on(a,b)"),
             ("~ on(a, b)", "not on(a,b)"),
             ("not !on(a)", "on(a)"),
+            ("-on(a,b)", "not on(a,b)"),
+            ("on(a,b) is false", "not on(a,b)"),
+            ("on(a,b)=False", "not on(a,b)"),
+            ("not on(a,b) == false", "on(a,b)"),
+            ("(on a b) = true", "on(a,b)"),
+            ("colour(a)=Red", "colour_Red(a)"),
+            ("colour(a) != Red", "not colour_Red(a)"),
+            ("not colour(a) is Red", "not colour_Red(a)"),
+            ("colour Red(a)", "colour_Red(a)"),
+            ("on(a) -> on(b)", "beyond: ->"),
+            ("on(a) => on(b)", "beyond: =>"),
             ("!(on a b)", "not on(a,b)"),
             ("(on a b)", "on(a,b)"),
             ("on a b", "on(a,b)"),

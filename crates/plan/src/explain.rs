@@ -14,78 +14,8 @@ use typelift_model::{
 
 use crate::Restrictions;
 use crate::conflict::Conflict;
+use crate::obstacle::{Nearest, Obstacle};
 use crate::reach::Reachable;
-
-/// What stands between an action and the atom that it could achieve.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case")]
-pub enum Obstacle {
-    /// An object has a type that the action does not take.
-    Type {
-        /// The object.
-        object: Symbol,
-        /// Its type.
-        found: Symbol,
-        /// The type that the action takes there.
-        expected: Symbol,
-    },
-    /// There is no such object.
-    Missing {
-        /// The object's name.
-        object: Symbol,
-    },
-    /// An object may not be used.
-    Excluded {
-        /// The object.
-        object: Symbol,
-    },
-    /// No object of a type may be used.
-    NoObject {
-        /// The type.
-        ty: Symbol,
-    },
-    /// Every ground action that would do was tried, and may not be tried again.
-    Banned,
-    /// A precondition cannot be reached; parameters that the atom leaves open are written by their type.
-    Precondition(String),
-    /// The condition of the effect cannot be reached; written in the same way.
-    Condition(String),
-}
-
-impl fmt::Display for Obstacle {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Type { object, found, expected } => write!(f, "{object} is of type {found}, not {expected}"),
-            Self::Missing { object } => write!(f, "there is no {object}"),
-            Self::Excluded { object } => write!(f, "{object} may not be used any more"),
-            Self::NoObject { ty } => write!(f, "there is no {ty} that may be used"),
-            Self::Banned => f.write_str("what fits it may not be used any more"),
-            Self::Precondition(atom) => write!(f, "it needs {atom}, which cannot be reached"),
-            Self::Condition(atom) => write!(f, "it adds that only with {atom}, which cannot be reached"),
-        }
-    }
-}
-
-/// The action that comes nearest to achieving an atom.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct Nearest {
-    /// Its name, as plans have it.
-    pub action: Symbol,
-    /// Whether it has other ways to be used or to add the atom: then the obstacles are those of the nearest way.
-    #[serde(default, skip_serializing_if = "is_false")]
-    pub one_of_several: bool,
-    /// Whether it was imagined: then no list of the model's actions has it.
-    #[serde(default, skip_serializing_if = "is_false")]
-    pub imagined: bool,
-    /// What is missing; empty if only no choice of objects satisfies all that it needs.
-    pub obstacles: Vec<Obstacle>,
-}
-
-fn is_false(value: &bool) -> bool {
-    !*value
-}
 
 /// Why a goal atom cannot be reached.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -115,6 +45,17 @@ pub struct UnreachableGoal<A = GroundAtom> {
     pub why: Unreached,
 }
 
+/// An atom that must not hold in the end, but does from the start, and that nothing deletes.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct UndeletedGoal<A = GroundAtom> {
+    /// The atom.
+    pub atom: A,
+    /// The action that comes nearest to deleting it; none if no action deletes such atoms.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub nearest: Option<Nearest>,
+}
+
 /// Why there is no plan. The planner says it of the model's atoms; [`in_words`](Explanation::in_words) of what these stand
 /// for in the text that the model was made from.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -133,7 +74,7 @@ pub enum Explanation<A = GroundAtom> {
     /// Another planner says so, and no more.
     ToldByPlanner,
     /// These atoms must not hold in the end, but do from the start, and no action can delete them.
-    NeverDeleted(Vec<A>),
+    NeverDeleted(Vec<UndeletedGoal<A>>),
     /// No state that can be reached satisfies the whole goal; where the search came closest, these were missing.
     NotTogether {
         /// The missing goal atoms, and whether each must hold. None where the search did not look at any state.
@@ -155,7 +96,11 @@ impl Explanation {
             }
             Self::Exclusive { one, other } => Explanation::Exclusive { one: words(one), other: words(other) },
             Self::ToldByPlanner => Explanation::ToldByPlanner,
-            Self::NeverDeleted(atoms) => Explanation::NeverDeleted(atoms.iter().map(words).collect()),
+            Self::NeverDeleted(goals) => {
+                let goal =
+                    |goal: &UndeletedGoal| UndeletedGoal { atom: words(&goal.atom), nearest: goal.nearest.clone() };
+                Explanation::NeverDeleted(goals.iter().map(goal).collect())
+            }
             Self::NotTogether { missing, conflict } => {
                 // A formula is negated in its own words.
                 let literal = |(atom, positive): &(GroundAtom, bool)| match model.wordings.get(&atom.predicate) {
@@ -180,11 +125,8 @@ impl<A: Display + PartialEq> Display for Explanation<A> {
                 write!(f, "{one} and {other} cannot hold together: no state that can be reached holds both")
             }
             Self::ToldByPlanner => f.write_str("the planner says that there is none"),
-            Self::NeverDeleted(atoms) => {
-                let lines: Vec<String> = atoms
-                    .iter()
-                    .map(|atom| format!("{atom} must not hold in the end, but no action can delete it"))
-                    .collect();
+            Self::NeverDeleted(goals) => {
+                let lines: Vec<String> = goals.iter().map(ToString::to_string).collect();
                 f.write_str(&lines.join("\n"))
             }
             Self::NotTogether { missing, conflict } => {
@@ -219,20 +161,25 @@ impl Display for Unreached {
             Self::NeverUsed(action) => {
                 write!(f, "no action can add it: {action}, which adds such atoms, can never be used")
             }
-            Self::Nearest(Nearest { action, one_of_several, imagined, obstacles }) => {
-                let action = if *imagined { format!("{action} (imagined)") } else { action.to_string() };
-                if obstacles.is_empty() {
-                    return write!(f, "no choice of objects lets {action} add it");
-                }
-                let way = if *one_of_several { "in the nearest of its cases " } else { "" };
-                let obstacles: Vec<String> = obstacles.iter().map(ToString::to_string).collect();
-                write!(f, "the nearest action is {action}, but {way}{}", obstacles.join(", and "))
-            }
+            Self::Nearest(nearest) => nearest.say(f, "add"),
             Self::Derived(needed) if needed.is_empty() => f.write_str("it follows from nothing that can be reached"),
             Self::Derived(needed) => {
                 write!(f, "it follows only from what cannot be reached: {}", needed.join(", "))
             }
             Self::Impossible => f.write_str("it can never hold"),
+        }
+    }
+}
+
+impl<A: Display> Display for UndeletedGoal<A> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} must not hold in the end, ", self.atom)?;
+        match &self.nearest {
+            None => f.write_str("but no action can delete it"),
+            Some(nearest) => {
+                f.write_str("and cannot be deleted: ")?;
+                nearest.say(f, "delete")
+            }
         }
     }
 }
@@ -247,6 +194,23 @@ pub(crate) fn unreachable(
     let context = Context { model, task, restrictions, reached: reachable.atoms_by_predicate() };
     let goals = reachable.unreached_goals().iter();
     goals.map(|atom| UnreachableGoal { atom: atom.clone(), why: context.why(atom) }).collect()
+}
+
+/// For each of these atoms, which nothing that can be reached deletes, what comes nearest to it.
+pub(crate) fn undeleted(
+    model: &ActionModel,
+    task: &Task,
+    restrictions: &Restrictions,
+    reachable: &Reachable,
+    atoms: &[GroundAtom],
+) -> Vec<UndeletedGoal> {
+    let context = Context { model, task, restrictions, reached: reachable.atoms_by_predicate() };
+    let goal = |atom: &GroundAtom| {
+        // What stands for a formula is deleted by no action as it is written.
+        let nearest = context.nearest(model.deleting(atom)).filter(|_| !model.wordings.contains_key(&atom.predicate));
+        UndeletedGoal { atom: atom.clone(), nearest }
+    };
+    atoms.iter().map(goal).collect()
 }
 
 struct Context<'a> {
@@ -267,16 +231,27 @@ impl Context<'_> {
         if self.model.wordings.contains_key(&atom.predicate) {
             return Unreached::Impossible;
         }
+        match self.nearest(self.model.adding(atom)) {
+            Some(nearest) => Unreached::Nearest(nearest),
+            None => {
+                let mut never_used = self.model.never_used.iter();
+                let of_predicate = never_used.find(|(_, added)| added.contains(&atom.predicate));
+                of_predicate.map_or(Unreached::NoAction, |(action, _)| Unreached::NeverUsed(action.clone()))
+            }
+        }
+    }
+
+    /// The nearest of the actions that may change an atom so, each with its effect and what that binds.
+    fn nearest<'e>(
+        &self,
+        effects: impl Iterator<Item = (&'e ActionSchema, &'e Effect, Vec<Option<&'e Symbol>>)>,
+    ) -> Option<Nearest> {
         let ways: Vec<Nearest> =
-            self.model.adding(atom).map(|(schema, effect, binding)| self.nearest(schema, effect, &binding)).collect();
+            effects.map(|(schema, effect, binding)| self.obstructed(schema, effect, &binding)).collect();
         // Of several that are as near, one that was shown, which whoever reads this can look up.
-        let Some(nearest) = ways.iter().min_by_key(|way| (way.obstacles.len(), way.imagined)) else {
-            let mut never_used = self.model.never_used.iter();
-            let of_predicate = never_used.find(|(_, added)| added.contains(&atom.predicate));
-            return of_predicate.map_or(Unreached::NoAction, |(action, _)| Unreached::NeverUsed(action.clone()));
-        };
+        let nearest = ways.iter().min_by_key(|way| (way.obstacles.len(), way.imagined))?;
         let of_same = ways.iter().filter(|way| way.action == nearest.action).count();
-        Unreached::Nearest(Nearest { one_of_several: of_same > 1, ..nearest.clone() })
+        Some(Nearest { one_of_several: of_same > 1, ..nearest.clone() })
     }
 
     /// For each rule by which an atom could follow, something that it needs and that cannot be reached; nothing if one of
@@ -299,8 +274,8 @@ impl Context<'_> {
         needed
     }
 
-    /// What keeps an effect of `schema` from adding an atom that puts these objects in the place of its parameters.
-    fn nearest(&self, schema: &ActionSchema, effect: &Effect, binding: &[Option<&Symbol>]) -> Nearest {
+    /// What keeps an effect of `schema` from changing an atom that puts these objects in the place of its parameters.
+    fn obstructed(&self, schema: &ActionSchema, effect: &Effect, binding: &[Option<&Symbol>]) -> Nearest {
         let mut obstacles = self.unfit(schema, effect, binding);
         let parameters = [&schema.parameters[..], &effect.parameters].concat();
         let missing = |need: &&LiftedAtom| !self.reachable_somehow(&parameters, need, binding);

@@ -6,7 +6,7 @@ use typelift_model::{ActionModel, Budget, GroundAtom, HashSet, Stop, Task};
 
 use crate::Restrictions;
 use crate::conflict::{Conflict, conflict};
-use crate::explain::{Explanation, unreachable};
+use crate::explain::{Explanation, undeleted, unreachable};
 use crate::fact::FactId;
 use crate::fdr::Fdr;
 use crate::ground::GroundTask;
@@ -101,7 +101,10 @@ impl Level {
         }
         match &self.exclusive {
             Some((one, other)) => Explanation::Exclusive { one: one.clone(), other: other.clone() },
-            None => Explanation::NeverDeleted(self.never_deleted.clone()),
+            None => {
+                let (reachable, atoms) = (self.ground.reachable(), &self.never_deleted);
+                Explanation::NeverDeleted(undeleted(model, task, restrictions, reachable, atoms))
+            }
         }
     }
 }

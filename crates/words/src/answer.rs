@@ -48,6 +48,9 @@ impl AnswerView {
     pub fn of(proposal: &Proposal, plans: &[Plan], last: &Outcome, bytes: u64, seconds: f64) -> Self {
         let report = proposal.report();
         let explanation = plans.is_empty().then(|| why_none(proposal, last)).flatten();
+        let mut mismatches = proposal.goal_type_mismatches();
+        // Where there is a plan, only what never holds, and need not be asked not to, is to be noted.
+        mismatches.retain(|mismatch| explanation.is_some() || !plans.is_empty() && !mismatch.positive);
         let given_up: Vec<GivenUp> = explanation.iter().flat_map(|_| proposal.imagination.given_up.clone()).collect();
         Self {
             outcome: if plans.is_empty() { last.word() } else { "solved" },
@@ -58,7 +61,7 @@ impl AnswerView {
             evaluations: report.evaluations,
             bytes,
             seconds,
-            notes: if explanation.is_some() { notes(&proposal.goal_type_mismatches(), &given_up) } else { Vec::new() },
+            notes: notes(&mismatches, &given_up),
             given_up,
             explanation: explanation.as_ref().map(Explanation::to_string),
             reasons: explanation,

@@ -84,6 +84,14 @@ pub(crate) fn hint(error: &serde_json::Error, text: &str) -> Option<String> {
     struct Goals {
         goal: Vec<String>,
     }
+    #[derive(serde::Deserialize)]
+    struct OneGoal {
+        goal: String,
+    }
+    if let Ok(OneGoal { goal }) = serde_json::from_str(text) {
+        let listed = serde_json::to_string(&[goal]).ok()?;
+        return Some(format!("A goal is a list, even of one atom: write {listed}."));
+    }
     let Goals { goal } = serde_json::from_str(text).ok()?;
     let (text, wrong) = goal.iter().find_map(|text| Some((text, literal(text).err()?)))?;
     let is_about_it = error.to_string().starts_with(&wrong.to_string());

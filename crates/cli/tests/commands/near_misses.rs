@@ -27,6 +27,15 @@ fn goals_as_others_write_them() {
         // Five letters of it are those of `chop_state_Chopped`, but it is another value.
         ("chop_state_Minced(lettuce_1)".to_owned(), "Did you mean `chop_state_Chopped` or `chop_state_Fresh`?".to_owned()),
         ("Chop_State_chopped(lettuce_1)".to_owned(), "Did you mean `chop_state_Chopped`?".to_owned()),
+        (format!("-{chopped}"), format!("Write `not {chopped}`.")),
+        (format!("{chopped} is false"), format!("Write `not {chopped}`.")),
+        (format!("{chopped}=false"), format!("Write `not {chopped}`.")),
+        ("chop_state(lettuce_1) = Chopped".to_owned(), format!("Write `{chopped}`.")),
+        ("chop_state(lettuce_1, Chopped)".to_owned(), format!("Write `{chopped}`.")),
+        ("not chop_state(lettuce_1, chopped)".to_owned(), format!("Write `not {chopped}`.")),
+        ("chop_state Chopped(lettuce_1)".to_owned(), format!("Write `{chopped}`.")),
+        ("holding_holds(agent_1, null)".to_owned(), "Write `holding_None(agent_1)`.".to_owned()),
+        ("holding(agent_1, None)".to_owned(), "Write `holding_None(agent_1)`.".to_owned()),
         ("not happy(lettuce_1)".to_owned(), "`typelift show MODEL --predicates` lists what a goal may say.".to_owned()),
     ] {
         folder.changed("K/tasks/T1.1.json", "task.json", |task| task["goal"] = json!([goal]));
