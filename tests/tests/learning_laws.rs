@@ -5,7 +5,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use proptest::prelude::*;
-use typelift::imagine::{self, imagine};
+use typelift::imagine::{self, imagine, loosenings};
 use typelift::learn::{self, evidence_of, learn_evidence, observe};
 use typelift::model::{
     ActionModel, Budget, ClusterKey, Evidence, GroundAtom, GroundCall, Hierarchy, LearnedModel, LiftedAtom,
@@ -371,16 +371,18 @@ fn models_survive_being_written() {
         let LearnedModel { model, .. } = &learned;
         let round_trip = |model: ActionModel| assert_round_trip(&LearnedModel { model, ..learned.clone() });
         round_trip(typelift::model::strict(model));
-        let mut with_imagined = 0;
+        let (mut with_imagined, mut with_loosened) = (0, 0);
         for task in tasks() {
             let asked = planning_task(model, &task, 0);
-            let imagined =
+            let mut imagined =
                 imagine(model, &asked, &Restrictions::default(), &imagine::Options::default(), &Budget::unlimited())
                     .expect("no limits");
+            imagined.loosen(model, &loosenings(model, &asked.goal));
+            with_loosened += imagined.loosened.len();
             with_imagined += usize::from(!imagined.actions.is_empty());
             round_trip(imagined.added_to(model));
         }
-        assert!(with_imagined > 0);
+        assert!(with_imagined > 0 && with_loosened > 0);
     }
 }
 

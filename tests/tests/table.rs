@@ -133,7 +133,7 @@ fn rules_switched_off() {
     };
     let with_guard = |guard| {
         move |imagine: bool| Options {
-            imagine: imagine.then_some(imagine::Options { guard }),
+            imagine: imagine.then_some(imagine::Options { guard, ..Default::default() }),
             ..paper_options(imagine)
         }
     };

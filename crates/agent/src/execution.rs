@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
+use typelift_imagine::Loosening;
 use typelift_model::{ActionModel, ActionSchema, GroundAction, Plan, State, Step, Symbol};
 use typelift_plan::Restrictions;
 
@@ -18,6 +19,9 @@ pub(crate) struct Terms {
     pub(crate) conditions: Vec<Condition>,
     /// Actions are used although some of their effects hold already, whatever the options say.
     pub(crate) relaxed: bool,
+    /// The preconditions that are done without.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) loosened: Vec<Loosening>,
 }
 
 /// A plan that is proposed or carried out.

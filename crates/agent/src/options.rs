@@ -46,6 +46,11 @@ impl Default for Options {
 }
 
 impl Options {
+    /// Whether preconditions may be done without. Only typelift's own planner is asked again and again.
+    pub(crate) fn loosens(&self) -> bool {
+        self.planner.is_none() && self.imagine.is_some_and(|imagining| imagining.loosen)
+    }
+
     /// How often a failed step is tried again.
     pub(crate) fn retries(&self) -> u32 {
         self.retries.unwrap_or(u32::from(!self.restart))

@@ -10,8 +10,9 @@ use crate::blame::with_conditions;
 use crate::episode::{Episode, EpisodeError, Phase};
 use crate::event::{Event, Observer, WhyNoOther};
 use crate::execution::{Execution, Terms, steps};
+use crate::loosening::{propose, propose_loosened};
 use crate::options::Options;
-use crate::propose::{Proposal, ProposeError, propose, widened};
+use crate::propose::{Proposal, ProposeError, attempt, loosened_and_widened};
 use crate::resort::{CountedExclusions, Resort};
 use crate::turn::Command;
 
@@ -200,7 +201,29 @@ impl Episode {
             }
             self.account.resorts.tried(resort, None);
         }
+        if proposal.outcome == Outcome::Unsolvable
+            && let Some(loosened) = self.plan_loosened(&usual, observer)?
+        {
+            let terms = Terms { loosened: loosened.imagination.loosened.clone(), ..usual };
+            return Ok(Planned { proposal: loosened, terms, resort: None });
+        }
         Ok(Planned { proposal, terms: usual, resort: None })
+    }
+
+    /// A plan that does without preconditions, where the options allow that.
+    fn plan_loosened(&mut self, terms: &Terms, observer: &mut dyn Observer) -> Result<Option<Proposal>, ProposeError> {
+        if !self.options.loosens() {
+            return Ok(None);
+        }
+        observer.event(&Event::PlanningStarted { proposal: self.account.proposals + 1 });
+        let (task, options) = self.asked(terms, &self.state);
+        let model = with_conditions(&self.model, &terms.conditions);
+        let planned = propose_loosened(&model, &task, &terms.restrictions, &options, &self.budget);
+        let found = planned.as_ref().ok().and_then(Option::as_ref);
+        let report = found.map(Proposal::report).unwrap_or_default();
+        observer.event(&planning_ended(report, found, found.is_some()));
+        self.count(report);
+        planned
     }
 
     /// Notes what became of a resort, before the plan that it led to is offered. One that the budget ended led to none.
@@ -227,7 +250,7 @@ impl Episode {
 
     fn terms(&self, counted: CountedExclusions) -> Terms {
         let (restrictions, conditions) = self.experience.avoided(&self.instance, counted);
-        Terms { restrictions, conditions, relaxed: false }
+        Terms { restrictions, conditions, relaxed: false, loosened: Vec::new() }
     }
 
     /// Plans, and tells of it.
@@ -271,14 +294,15 @@ impl Episode {
     fn plan_on(&self, terms: &Terms) -> Result<Proposal, ProposeError> {
         let (task, options) = self.asked(terms, &self.state);
         let model = with_conditions(&self.model, &terms.conditions);
-        propose(&model, &task, &terms.restrictions, &options, &self.budget)
+        attempt(&model, &task, &terms.restrictions, &options, &terms.loosened, &self.budget)
     }
 
     /// The model that a plan on these terms for this state is made with.
     pub(crate) fn planned_on(&self, terms: &Terms, state: &State) -> Result<Arc<ActionModel>, ProposeError> {
         let (task, options) = self.asked(terms, state);
         let model = with_conditions(&self.model, &terms.conditions);
-        Ok(widened(&model, &task, &terms.restrictions, &options, &self.budget)?.model)
+        let restrictions = &terms.restrictions;
+        Ok(loosened_and_widened(&model, &task, restrictions, &options, &terms.loosened, &self.budget)?.model)
     }
 
     fn asked(&self, terms: &Terms, state: &State) -> (Task, Options) {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use thiserror::Error;
 use typelift_check::{Invalid, check};
-use typelift_imagine::{Imagination, imagine_from};
+use typelift_imagine::{Imagination, Loosening, imagine_from};
 use typelift_model::{ActionModel, Budget, GoalTypeMismatch, Plan, Stop, Task, strict};
 use typelift_plan::{Explanation, ExternalFailure, Outcome, Planner, Reachable, Report, Restrictions};
 
@@ -126,18 +126,20 @@ pub enum ProposeError {
     },
 }
 
-/// Plans a task with a learned model.
+/// Plans a task with a learned model, doing without these preconditions of it and no others.
 ///
 /// # Errors
 /// [`ProposeError`]
-pub fn propose(
+pub(crate) fn attempt(
     model: &ActionModel,
     task: &Task,
     restrictions: &Restrictions,
     options: &Options,
+    loosened: &[Loosening],
     budget: &Budget,
 ) -> Result<Proposal, ProposeError> {
-    let Widened { model, imagination, reachable, groundings } = widened(model, task, restrictions, options, budget)?;
+    let Widened { model, imagination, reachable, groundings } =
+        loosened_and_widened(model, task, restrictions, options, loosened, budget)?;
     let (searched, outcome) = match &options.planner {
         None => {
             let mut planner = Planner::starting_from(reachable, &model, task, restrictions, &options.plan, budget)?;
@@ -181,6 +183,21 @@ pub fn widened(
     options: &Options,
     budget: &Budget,
 ) -> Result<Widened, Stop> {
+    loosened_and_widened(model, task, restrictions, options, &[], budget)
+}
+
+/// The same, with what does without these preconditions.
+///
+/// # Errors
+/// [`Stop`] if the budget ends it.
+pub(crate) fn loosened_and_widened(
+    model: &ActionModel,
+    task: &Task,
+    restrictions: &Restrictions,
+    options: &Options,
+    loosened: &[Loosening],
+    budget: &Budget,
+) -> Result<Widened, Stop> {
     let applied = |model: ActionModel| Arc::new(if options.strict { strict(&model) } else { model });
     let nothing = Imagination::default();
     let own = applied(nothing.added_to(model));
@@ -188,7 +205,8 @@ pub fn widened(
         return Ok(Widened { model: own, imagination: nothing, reachable: None, groundings: 0 });
     };
     let reached = Reachable::with_few_objects(&own, task, restrictions, budget)?;
-    let imagination = imagine_from(&reached, model, task, restrictions, imagining, budget)?;
+    let mut imagination = imagine_from(&reached, model, task, restrictions, imagining, budget)?;
+    imagination.loosen(model, loosened);
     if imagination.actions.is_empty() {
         return Ok(Widened { model: own, imagination, reachable: Some(reached), groundings: 0 });
     }

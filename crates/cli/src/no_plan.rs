@@ -6,7 +6,7 @@ use typelift::agent::{Episode, GivenUp, Options, Proposal, propose};
 use typelift::imagine::{self, Guard};
 use typelift::model::{ActionModel, Budget, Goal, Plan, State, Symbol, Task};
 use typelift::plan::{Outcome, Restrictions};
-use typelift::words::count;
+use typelift::words::{count, without_phrase};
 
 use crate::style::{HINT, WARNING};
 
@@ -23,9 +23,9 @@ pub(crate) struct Hint {
 /// something up.
 fn wider(imagining: Option<imagine::Options>, given_up: &[GivenUp]) -> Option<(&'static str, imagine::Options)> {
     match imagining {
-        None => Some(("--imagine", imagine::Options::default())),
+        None => Some(("--imagine", imagine::Options { loosen: true, ..Default::default() })),
         Some(_) if given_up.is_empty() => None,
-        Some(_) => Some(("--guard off", imagine::Options { guard: Guard::Off })),
+        Some(_) => Some(("--guard off", imagine::Options { guard: Guard::Off, loosen: false })),
     }
 }
 
@@ -62,8 +62,12 @@ pub(crate) fn for_task(
     }
 }
 
-/// Says which plan is found if actions are imagined, or further ones.
+/// Says which plan is found if actions are imagined, or further ones, and what it does without.
 pub(crate) fn say_hint(Hint { option, plan }: &Hint) {
+    if let Some(without) = without_phrase(plan) {
+        anstream::eprintln!("{HINT}hint{HINT:#}: {without}; {option} proposes it");
+        return;
+    }
     anstream::eprintln!(
         "{HINT}hint{HINT:#}: {option} finds a plan of {} resting on {}",
         count(plan.len() as u64, "step"),

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::ValueEnum;
-use typelift::agent::{Options, widened};
+use typelift::agent::{Options, allowed, widened};
 use typelift::imagine;
 use typelift::model::{ActionModel, Budget, Task, strict};
 use typelift::plan::Restrictions;
@@ -51,7 +51,7 @@ impl ModelArguments {
             GuardRule::Roles => imagine::Guard::Roles,
             GuardRule::Off => imagine::Guard::Off,
         };
-        self.imagine.then_some(imagine::Options { guard })
+        self.imagine.then_some(imagine::Options { guard, loosen: true })
     }
 
     /// Reads the model.
@@ -91,6 +91,12 @@ impl ModelArguments {
         let nothing_failed = Restrictions::default();
         let widened = widened(&model, task, &nothing_failed, &self.agent_options(), budget)?;
         Ok(Arc::unwrap_or_clone(widened.model))
+    }
+
+    /// The model that plans for this task are judged by: whatever `plan` finds with the same options is one of its plans.
+    pub(crate) fn as_judged(&self, model: &ActionModel, task: &Task, budget: &Budget) -> Result<ActionModel, Failure> {
+        let nothing_failed = Restrictions::default();
+        Ok(Arc::unwrap_or_clone(allowed(model, task, &nothing_failed, &self.agent_options(), budget)?))
     }
 
     /// How an episode may use the model.

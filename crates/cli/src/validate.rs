@@ -105,11 +105,11 @@ impl Validate {
         let (model, task) = input.planning_task_from_text(&self.task, &task, quiet)?;
         let budget = self.limits.budget(clock, &Interrupt::default());
         let plans = self.read_plans()?;
-        let learned = Some(&model).filter(|_| !self.model.imagine && !is_given).cloned();
-        let model = self.model.as_used(model, Some(&task), &budget)?;
+        let learned = Some(&model).filter(|_| !self.model.imagine && !is_given);
+        let judge = self.model.as_judged(&model, &task, &budget)?;
         let check = |(plan, text, lines): PlanFile| -> Result<_, Failure> {
-            let calls = calls_of_plan(&lines, &model, &task.init)?;
-            let (steps, value, invalid) = match validate(&model, &task, &calls) {
+            let calls = calls_of_plan(&lines, &judge, &task.init)?;
+            let (steps, value, invalid) = match validate(&judge, &task, &calls) {
                 Ok(valid) => (valid.plan.len(), Some(valid.plan.cost()), None),
                 Err((taken, invalid)) => (taken.len(), None, Some(invalid)),
             };
@@ -127,14 +127,14 @@ impl Validate {
     /// Says that a plan is valid with imagined actions, if one of these is.
     fn hint_at_imagining(
         &self,
-        learned: ActionModel,
+        learned: &ActionModel,
         task: &Task,
         checked: &[Checked],
         budget: &Budget,
     ) -> Result<(), Failure> {
-        let model = self.model.imagining().as_used(learned, Some(task), budget)?;
+        let judge = self.model.imagining().as_judged(learned, task, budget)?;
         for Checked { plan, lines, .. } in checked.iter().filter(|plan| plan.invalid.is_some()) {
-            if validate(&model, task, &calls_of_plan(lines, &model, &task.init)?).is_ok() {
+            if validate(&judge, task, &calls_of_plan(lines, &judge, &task.init)?).is_ok() {
                 anstream::eprintln!("{HINT}hint{HINT:#}: {plan} is valid with imagined actions: --imagine allows them");
             }
         }

@@ -11,6 +11,9 @@
 //! | `GetUnreachablePreconds`                         | `preconditions.rs`|
 //! | `CreateSubstitutedAction`                        | `substitute.rs`   |
 //!
+//! Where all that leads to no plan either, preconditions that always held may be done without, one or two (`loosen.rs`). That
+//! goes beyond the paper.
+//!
 //! Imagined actions rest on no observation of their own. They only ever widen what may be planned: the model's own
 //! actions stay as they are.
 #![deny(missing_docs)]
@@ -18,6 +21,7 @@
 mod create;
 mod given_up;
 mod guard;
+mod loosen;
 mod potential;
 mod preconditions;
 mod substitute;
@@ -29,12 +33,15 @@ use typelift_plan::{Reachable, Restrictions};
 
 pub use given_up::{Because, GivenUp};
 pub use guard::Guard;
+pub use loosen::{Loosening, loosenings, without_all};
 
 /// How actions are imagined.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Options {
     /// Which proposals are given up.
     pub guard: Guard,
+    /// Where there is no plan otherwise, do without preconditions that always held and may be accidents.
+    pub loosen: bool,
 }
 
 /// What was imagined for a task.
@@ -46,6 +53,8 @@ pub struct Imagination {
     pub unreachable: Vec<GroundAtom>,
     /// What the guard gave up, each once, in order.
     pub given_up: Vec<GivenUp>,
+    /// The preconditions that some of the new actions do without.
+    pub loosened: Vec<Loosening>,
 }
 
 impl Imagination {
@@ -55,6 +64,13 @@ impl Imagination {
         model.actions.extend(self.actions.iter().cloned());
         model.actions.sort_by(|a, b| a.name.cmp(&b.name));
         model
+    }
+
+    /// Adds actions that do without one or two of these preconditions of the model's.
+    pub fn loosen(&mut self, model: &ActionModel, loosenings: &[Loosening]) {
+        let loosened = loosen::loosened(model, loosenings).into_iter();
+        self.actions.extend(loosened.filter(|action| model.action(action.name.as_str()).is_none()));
+        self.loosened.extend_from_slice(loosenings);
     }
 }
 

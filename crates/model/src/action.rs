@@ -185,6 +185,7 @@ impl ActionSchema {
         let imagined = self.provenance.imagined().map(|(from, replaced, observations)| Imagined {
             from: from.clone(),
             replaced: replaced.to_vec(),
+            without: self.provenance.without().iter().map(|atom| atom.map(|term| term.object(&objects))).collect(),
             observations,
         });
         let call = GroundCall {

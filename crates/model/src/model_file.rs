@@ -152,6 +152,11 @@ pub(crate) enum ProvenanceFile {
         following: Symbol,
         observations: u64,
     },
+    Loosened {
+        from: Symbol,
+        without: Vec<LiftedAtom>,
+        observations: u64,
+    },
 }
 
 #[derive(Serialize, Deserialize)]
@@ -260,6 +265,9 @@ fn write_action(action: &ActionSchema, hierarchy: &Hierarchy, clusters: &[&Clust
             following: following.clone(),
             observations: *observations,
         },
+        Provenance::Loosened { from, without, observations } => {
+            ProvenanceFile::Loosened { from: from.clone(), without: without.clone(), observations: *observations }
+        }
     };
     let effect = |e: &Effect| match e.is_unconditional() {
         true => EffectFile::Always(write_literal(&e.literal)),

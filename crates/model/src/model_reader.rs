@@ -305,6 +305,12 @@ fn read_provenance(
         ProvenanceFile::Substituted { from, replaced: r, following, observations } => {
             Provenance::Substituted { from, replaced: replaced(r)?, following, observations }
         }
+        ProvenanceFile::Loosened { from, without, observations } => {
+            if without.iter().flat_map(LiftedAtom::params).any(|p| p >= n) {
+                return Err(inconsistent(place(), "it does without an atom of a parameter that it does not have"));
+            }
+            Provenance::Loosened { from, without, observations }
+        }
     })
 }
 

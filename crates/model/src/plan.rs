@@ -1,14 +1,16 @@
 //! Plans.
 
-use crate::{GroundCall, Replacement, Symbol};
+use crate::{GroundAtom, GroundCall, Replacement, Symbol};
 
 /// What makes a step of a plan an imagined one.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Imagined {
-    /// The learned action that was raised.
+    /// The learned action that was raised or loosened.
     pub from: Symbol,
     /// The raised parameters.
     pub replaced: Vec<Replacement>,
+    /// What does not hold, although it did whenever the learned action was seen.
+    pub without: Vec<GroundAtom>,
     /// Observations behind the learned action.
     pub observations: u64,
 }

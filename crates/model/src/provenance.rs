@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::{ClusterKey, GroundAtom, Symbol, TypeId};
+use crate::{ClusterKey, GroundAtom, LiftedAtom, Symbol, TypeId};
 
 /// A cluster of observations, as seen from an action that rests on it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -57,6 +57,15 @@ pub enum Provenance {
         /// Observations behind the learned action.
         observations: u64,
     },
+    /// Imagined to work without preconditions that always held. It is used where they do not.
+    Loosened {
+        /// The learned action.
+        from: Symbol,
+        /// The preconditions that it does without.
+        without: Vec<LiftedAtom>,
+        /// Observations behind the learned action; they held in each.
+        observations: u64,
+    },
 }
 
 impl Provenance {
@@ -69,12 +78,21 @@ impl Provenance {
         }
     }
 
-    /// The learned action, raised parameters and observations of an imagined or substituted action.
+    /// The learned action, raised parameters and observations of an action that was imagined, in whatever way.
     pub fn imagined(&self) -> Option<(&Symbol, &[Replacement], u64)> {
         match self {
             Self::Imagined { from, replaced, observations, .. }
             | Self::Substituted { from, replaced, observations, .. } => Some((from, replaced, *observations)),
+            Self::Loosened { from, observations, .. } => Some((from, &[], *observations)),
             Self::Given | Self::Demonstrated(_) | Self::Generalized(_) => None,
+        }
+    }
+
+    /// The preconditions that the learned action has and this one does without.
+    pub fn without(&self) -> &[LiftedAtom] {
+        match self {
+            Self::Loosened { without, .. } => without,
+            _ => &[],
         }
     }
 
@@ -83,7 +101,7 @@ impl Provenance {
         match self {
             Self::Demonstrated(support) => std::slice::from_ref(support),
             Self::Generalized(support) => support,
-            Self::Given | Self::Imagined { .. } | Self::Substituted { .. } => &[],
+            Self::Given | Self::Imagined { .. } | Self::Substituted { .. } | Self::Loosened { .. } => &[],
         }
     }
 }

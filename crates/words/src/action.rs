@@ -162,6 +162,11 @@ fn origin(action: &ActionSchema, hierarchy: &Hierarchy) -> String {
         Provenance::Substituted { from, replaced, following, .. } => {
             format!("follows {following}: {}, from {from}, {observations}", describe_replacements(replaced, hierarchy))
         }
+        Provenance::Loosened { from, without, .. } => {
+            let written = Written { parameters: action.parameters.iter().collect() };
+            let without: Vec<String> = without.iter().map(|atom| written.atom(atom)).collect();
+            format!("imagined: without {}, which always held, from {from}, {observations}", without.join(" and "))
+        }
     }
 }
 

@@ -42,7 +42,7 @@ pub use event::line;
 pub use given_up::given_up_notes;
 pub use inspection::{FindingView, InspectionView, TriedView, inspection_lines};
 pub use learning::{TypeNote, missing_actor, unbounded_parameters, why_unexplained};
-pub use plan::{PlanView, StepView, imagined_note, numbered_steps, plan_size};
+pub use plan::{PlanView, StepView, imagined_note, numbered_steps, plan_size, without_phrase};
 pub use text::{Role, Span, Text, count, places};
 pub use why::{CallQuestion, WhyView, why_lines};
 pub use wire::{WireCommand, WireEvent, wire_command, wire_event};

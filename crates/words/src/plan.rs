@@ -1,7 +1,7 @@
 //! Plans: what each step does, what an imagined one rests on, how long the plan is.
 
 use serde::{Deserialize, Serialize};
-use typelift_model::{Hierarchy, Plan, Step, Symbol, describe_replacements};
+use typelift_model::{GroundAtom, Hierarchy, Plan, Step, Symbol, describe_replacements};
 
 use crate::text::{Role, Text, count};
 
@@ -18,6 +18,9 @@ pub struct StepView {
     /// What the step rests on, if it is imagined.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub imagined: Option<String>,
+    /// What does not hold, although it did whenever such a step was seen.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub without: Vec<GroundAtom>,
 }
 
 impl StepView {
@@ -28,6 +31,7 @@ impl StepView {
             name: step.call.name.clone(),
             args: step.call.args.clone(),
             imagined: imagined_note(step, hierarchy),
+            without: step.imagined.iter().flat_map(|imagined| imagined.without.clone()).collect(),
         }
     }
 }
@@ -49,15 +53,45 @@ impl PlanView {
     }
 }
 
-/// What a step rests on, if it is imagined: `imagined: cuttingtool for saw, from CUT-saw-board, 5 observations`.
+/// What a step rests on, if it is imagined: `imagined: cuttingtool for saw, from CUT-saw-board, 5 observations`, or
+/// `imagined: without clean(pan_1), which always held (5 observations)`.
 pub fn imagined_note(step: &Step, hierarchy: &Hierarchy) -> Option<String> {
     let imagined = step.imagined.as_ref()?;
+    if !imagined.without.is_empty() {
+        let observations = count(imagined.observations, "observation");
+        return Some(format!("imagined: without {}, which always held ({observations})", listed(&imagined.without)));
+    }
     Some(format!(
         "imagined: {}, from {}, {}",
         describe_replacements(&imagined.replaced, hierarchy),
         imagined.from,
         count(imagined.observations, "observation")
     ))
+}
+
+fn listed(atoms: &[GroundAtom]) -> String {
+    atoms.iter().map(ToString::to_string).collect::<Vec<_>>().join(" and ")
+}
+
+/// What a plan does without, if it does, and how long it is: `without clean(pan_1), needed by bake because it always held
+/// (5 observations), there is a plan of 2 steps`.
+pub fn without_phrase(plan: &Plan) -> Option<String> {
+    let mut parts: Vec<(&Symbol, u64, Vec<GroundAtom>)> = Vec::new();
+    for step in &plan.steps {
+        let Some(imagined) = step.imagined.as_ref().filter(|imagined| !imagined.without.is_empty()) else { continue };
+        let (call, observations) = (&step.call.name, imagined.observations);
+        match parts.iter_mut().find(|part| (part.0, part.1) == (call, observations)) {
+            Some((_, _, atoms)) => atoms.extend(imagined.without.iter().cloned()),
+            None => parts.push((call, observations, imagined.without.clone())),
+        }
+    }
+    let part = |(call, observations, atoms): &(&Symbol, u64, Vec<GroundAtom>)| {
+        let observations = count(*observations, "observation");
+        format!("{}, needed by {call} because it always held ({observations})", listed(atoms))
+    };
+    let parts: Vec<String> = parts.iter().map(part).collect();
+    let steps = count(plan.len() as u64, "step");
+    (!parts.is_empty()).then(|| format!("without {}, there is a plan of {steps}", parts.join(", and ")))
 }
 
 /// A line for each step: its number from 1, its call, and what it rests on if it is imagined.

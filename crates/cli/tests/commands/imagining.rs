@@ -101,3 +101,45 @@ fn programs_are_told_what_is_refused() {
     let without = folder.refuses(36, "plan m.json cart-elsewhere.json --guard off");
     assert!(without.err.contains("--imagine"), "{}", without.err);
 }
+
+/// Each jar that was sealed had been wiped dry, and a cloth wipes once.
+fn jars() -> Folder {
+    let folder = Folder::new();
+    folder.write("types.json", r#"{"jar": "object", "cloth": "object"}"#);
+    let shown = trace(
+        "jar_1 cloth_1",
+        &[],
+        &[
+            ("wipe", &["jar_1", "cloth_1"], &["dry(jar_1)", "used(cloth_1)"]),
+            ("seal", &["jar_1"], &["dry(jar_1)", "used(cloth_1)", "sealed(jar_1)"]),
+        ],
+    );
+    folder.write("shown.jsonl", shown);
+    folder.run("learn shown.jsonl --types types.json -o m.json").succeeds();
+    let state = state("jar_1 jar_2 cloth_1", &[]);
+    let goal = r#"["sealed(jar_1)","sealed(jar_2)","dry(jar_1)"]"#;
+    folder.write("seal.json", format!(r#"{{"format":"task/1","goal":{goal},"state":{state}}}"#));
+    folder
+}
+
+#[test]
+fn a_precondition_that_may_be_an_accident_is_named_and_done_without_last_of_all() {
+    let folder = jars();
+    let mut transcript = Transcript::default();
+    for (command, exit) in [
+        ("plan m.json seal.json", 11),
+        ("plan m.json seal.json --imagine -o seal.plan", 0),
+        ("validate m.json seal.json seal.plan", 12),
+        ("validate m.json seal.json seal.plan --imagine", 0),
+    ] {
+        let ended = folder.run(command);
+        assert_eq!(ended.code, exit, "{command}");
+        transcript.add(command, &ended);
+    }
+    insta::assert_snapshot!(transcript.0);
+    let ended = folder.run("plan m.json seal.json --imagine --json");
+    let answer: serde_json::Value = serde_json::from_str(&ended.out.replace(": N", ": 0")).expect("an answer");
+    let steps = answer["plans"][0]["steps"].as_array().expect("steps");
+    let without: Vec<_> = steps.iter().filter_map(|step| step.get("without")).collect();
+    assert_eq!(without, [&serde_json::json!(["dry(jar_2)"])]);
+}

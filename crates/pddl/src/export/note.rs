@@ -63,6 +63,7 @@ impl Writer<'_> {
                 let replaced = describe_replacements(replaced, hierarchy);
                 format!("imagined: {replaced}, from {from}, following {following}")
             }
+            Provenance::Loosened { from, .. } => format!("imagined: without what always held, from {from}"),
         }
     }
 }
