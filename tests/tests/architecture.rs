@@ -24,7 +24,7 @@ const ALLOWED: [(&str, &[&str]); 16] = [
     ("plan", &["model"]),
     ("imagine", &["model", "plan"]),
     ("check", &["model", "pddl"]),
-    ("agent", &["model", "world", "plan", "imagine", "check"]),
+    ("agent", &["model", "belief", "world", "plan", "imagine", "check"]),
     ("words", &["model", "belief", "world", "plan", "agent"]),
     ("bridge", &["model", "pddl", "world", "plan"]),
     ("memory", &["model", "world", "learn"]),

@@ -115,7 +115,7 @@ fn when_every_saw_is_jammed_it_ends_with_a_reason() {
         }
         assert_eq!(failed_calls(it.account()), ["cut(saw_1, b)", "cut(saw_2, b)"]);
         let Ending::NoPlan(why) = &it.account().ending else { panic!("{:?}", it.account().ending) };
-        assert!(why.to_string().contains("there is no saw that may be used"), "{why}");
+        assert!(why.to_string().contains("what fits it may not be used any more"), "{why}");
     }
 }
 

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use typelift::agent::{
     Account, Command, Confirmation, EPISODE_FORMAT, Ending, Episode, Event, Experience, Failure, Input, Options,
-    Resort, RestoreError, StepResult, Success, Suspect,
+    Resort, RestoreError, StepResult, Suspect,
 };
 use typelift::imagine;
 use typelift::model::{ActionModel, Budget, GroundCall, ParseConfig, Plan, Step, Stop, Symbol};
@@ -47,20 +47,25 @@ fn blamed(account: &Account) -> BTreeSet<String> {
     account.failures.iter().flat_map(|f| &f.suspects).filter_map(object).map(ToString::to_string).collect()
 }
 
-/// What is to blame for a failed use of a tool: the tool; but where it worked with something else, that its kind does not
-/// go with this kind of food.
-fn to_blame(failure: &Failure, experience: &Experience, useless: bool) -> Suspect {
+fn kind(object: &Symbol) -> &str {
+    object.as_str().trim_end_matches(|c: char| c == '_' || c.is_ascii_digit())
+}
+
+/// That the tool is blamed, and nothing else: the thing where its kind was seen to do that; else the thing, its kind, or that
+/// its kind does not go with this kind of food.
+fn blames_the_tool(failure: &Failure, useless: bool) -> bool {
     let (call, tool) = (&failure.call.name, &failure.call.args[1]);
-    let uses_tool = |success: &&Success| {
-        success.deed.call == *call && success.deed.participants.iter().any(|one| one.object == *tool)
+    let thing = Suspect::Object(Exclusion { object: tool.clone(), call: (!useless).then(|| call.clone()) });
+    if call == "USE" && !failure.imagined {
+        return failure.suspects == [thing];
+    }
+    let speaks_of_it = |suspect: &Suspect| match suspect {
+        Suspect::Types(TypeExclusion { call: of, types, .. }) => {
+            of == call && types.get(&1).is_some_and(|ty| ty.as_str() == kind(tool))
+        }
+        other => *other == thing,
     };
-    let Some(worked) = experience.successes().iter().find(uses_tool) else {
-        return Suspect::Object(Exclusion { object: tool.clone(), call: (!useless).then(|| call.clone()) });
-    };
-    let kind =
-        |object: &Symbol| Symbol::new(object.as_str().trim_end_matches(|c: char| c == '_' || c.is_ascii_digit()));
-    let types = [1, 2].map(|place| (place, kind(&failure.call.args[place]))).into();
-    Suspect::Types(TypeExclusion { call: call.clone(), adds: worked.deed.adds.clone(), types })
+    !failure.suspects.is_empty() && failure.suspects.iter().all(speaks_of_it)
 }
 
 /// The thing that is to blame, if it is one.
@@ -99,7 +104,7 @@ fn with_restart_every_fault_is_worked_around() {
     assert_eq!(faults().len(), WITH_RESTART.len());
     for (name, proposals, length) in WITH_RESTART {
         for seed in SEEDS {
-            let Ran { account, experience, .. } = ran_alone(name, seed, &paper_options(true));
+            let Ran { account, .. } = ran_alone(name, seed, &paper_options(true));
             let found = (account.proposals, account.plan.as_ref().map(Plan::len));
             println!("{name} {seed}: {found:?} after {:?}", failed_calls(&account));
             assert!(proposals.contains(&found.0), "{name}, seed {seed}: {found:?}");
@@ -107,7 +112,7 @@ fn with_restart_every_fault_is_worked_around() {
             assert!(account.solved() || has_reason(&account.ending), "{name}: {:?}", account.ending);
             for failure in &account.failures {
                 // Everything but agent and goal is blamed, from every action.
-                assert_eq!(failure.suspects, [to_blame(failure, &experience, true)], "{name}, seed {seed}");
+                assert!(blames_the_tool(failure, true), "{name}, seed {seed}: {:?}", failure.suspects);
             }
             let of_plan = |plan: &Plan| plan.steps.iter().flat_map(|step| step.objects.clone()).collect();
             let used: BTreeSet<Symbol> = account.plan.as_ref().map(of_plan).unwrap_or_default();
@@ -121,7 +126,8 @@ fn nothing_but_the_blender_blends() {
     for seed in SEEDS {
         let Ran { account, experience, instance, .. } = ran_alone("broken_blender_carrot", seed, &paper_options(true));
         let tools = ["blender_1", "breadslicer_1", "contactgrill_1", "cutboard_1", "machete_1", "toaster_1"];
-        assert_eq!(blamed(&account), tools.map(str::to_owned).into(), "every tool was tried once");
+        let tried: BTreeSet<&str> = account.failures.iter().map(|failure| failure.call.args[1].as_str()).collect();
+        assert_eq!(tried, tools.into(), "every tool was tried once");
         assert_eq!(account.failures.len(), tools.len());
         assert_eq!(experience.bans(&instance).len(), tools.len());
         assert!(has_reason(&account.ending), "{:?}", account.ending);
@@ -140,7 +146,9 @@ fn without_imagination_no_fault_is_worked_around() {
                 let context = format!("{}, seed {seed}, restart {restart}", task.name);
                 assert!(!account.solved() && !account.failures.is_empty(), "{context}");
                 if restart {
-                    assert_eq!((account.proposals, account.failures.len()), (1, 1), "{context}");
+                    // Where there is another bread, that is tried: it may have been the bread.
+                    let tries = if task.name.starts_with("broken_toaster") { 2 } else { 1 };
+                    assert!(account.proposals <= tries, "{context}: {}", account.proposals);
                     assert!(has_reason(&account.ending), "{context}: {:?}", account.ending);
                 }
             }
@@ -170,7 +178,7 @@ fn going_on_every_fault_that_spoils_nothing_is_worked_around() {
     for (name, proposals) in GOING_ON {
         for seed in SEEDS {
             let mut world = Watched::new();
-            let Ran { account, experience, .. } = ran(&mut world, &fault(name), seed, &going_on(), Experience::new());
+            let Ran { account, .. } = ran(&mut world, &fault(name), seed, &going_on(), Experience::new());
             let found = (account.proposals, account.plan.as_ref().map(Plan::len));
             println!("{name} {seed}: {found:?} after {:?}", failed_calls(&account));
             assert!(account.solved(), "{name}, seed {seed}: {:?}", account.ending);
@@ -180,7 +188,7 @@ fn going_on_every_fault_that_spoils_nothing_is_worked_around() {
             for failure in account.failures.iter().filter(|failure| failure.call.name != *"PICK") {
                 let (tool, food) = (&failure.call.args[1], &failure.call.args[2]);
                 // The tool is blamed, from what failed alone.
-                assert_eq!(failure.suspects, [to_blame(failure, &experience, false)], "{name}, seed {seed}");
+                assert!(blames_the_tool(failure, false), "{name}, seed {seed}: {:?}", failure.suspects);
                 assert_eq!(world.times_told(&failure.call), 2, "{name}: {}, once and once more", failure.call);
                 // Food is taken out of a tool that does not work; what did not get in is still in the hand.
                 let args = vec![failure.call.args[0].clone(), tool.clone(), food.clone()];
@@ -261,24 +269,27 @@ fn what_failed_in_one_task_is_not_repeated_in_the_next() {
 
 #[test]
 fn exclusions_of_earlier_tasks_are_lifted_when_nothing_else_is_left() {
-    // The coconut taught to use the machete alone; then that breaks too.
-    let mut lettuce = fault("broken_cutboard_lettuce");
-    lettuce.scenario["broken"] = serde_json::json!(["machete_1"]);
+    // The cutboard was broken; it is mended when the other tools for cutting are.
+    let mut mended = fault("broken_cutboard_lettuce");
+    mended.scenario["broken"] = serde_json::json!(["machete_1", "breadslicer_1"]);
+    // Another lettuce: the very same call stays banned.
     for seed in SEEDS {
-        let runs = one_after_the_other([&fault("exception_coconut"), &lettuce], seed, &paper_options(true));
-        let [(coconut, _), (ran, told)] = runs;
+        let runs = one_after_the_other([&fault("broken_cutboard_tomato_onion"), &mended], seed, &paper_options(true));
+        let [(broken, _), (ran, told)] = runs;
         let lifted = Event::LastResort { resort: Resort::EarlierExclusions };
-        assert!(coconut.account.solved() && !coconut.account.resorts.lifted());
+        assert!(broken.account.solved() && !broken.account.resorts.lifted());
+        assert_eq!(blamed(&broken.account), ["cutboard_1".to_owned()].into());
         assert!(ran.account.solved() && ran.account.resorts.lifted(), "seed {seed}: {:?}", ran.account.ending);
         assert_eq!(ran.events.iter().filter(|event| **event == lifted).count(), 1);
-        // Everything that was never tried comes first.
-        assert_eq!(failed_calls(&ran.account)[0], "USE(agent_1, machete_1, lettuce_1)");
+        // Everything else comes first.
+        let tried = ["breadslicer_1", "machete_1"].map(|tool| format!("USE(agent_1, {tool}, lettuce_1)"));
+        let failed = failed_calls(&ran.account);
+        assert!(tried.iter().all(|call| failed.contains(call)), "seed {seed}: {failed:?}");
         let plan = ran.account.plan.as_ref().expect("solved");
-        let excluded = blamed(&coconut.account);
-        assert!(plan.steps.iter().any(|step| excluded.contains(step.call.args[1].as_str())), "one of those was used");
+        assert!(plan.steps.iter().any(|step| step.call.args[1] == *"cutboard_1"), "seed {seed}");
         // Bans stay: what failed was no matter of the tool alone.
         assert!(ran.experience.bans(&ran.instance).len() > ran.account.failures.len());
-        assert!(coconut.account.failures.iter().all(|failure| !told.contains(&failure.call)));
+        assert!(broken.account.failures.iter().all(|failure| !told.contains(&failure.call)));
     }
 }
 

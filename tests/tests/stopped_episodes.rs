@@ -103,7 +103,8 @@ fn a_resort_that_the_budget_ended_is_not_taken() {
     let mut it = ByHand::cutting(Options { planner, retries: Some(0), ..Options::default() });
     assert_eq!(it.refused(), "done, out_of_time");
     let states: Vec<_> = it.account().resorts.iter().map(|last| last.state).collect();
-    assert_eq!(states, [ResortState::Untried, ResortState::InVain, ResortState::Untried]);
+    let untried = ResortState::Untried;
+    assert_eq!(states, [ResortState::InVain, untried, untried, untried, untried]);
     assert!(!it.account().resorts.relaxed());
     assert!(!it.events.iter().any(|event| matches!(event, Event::LastResort { .. })));
 }

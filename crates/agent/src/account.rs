@@ -6,9 +6,9 @@ use typelift_model::{GoalTypeMismatch, GroundAtom, GroundCall, Plan, Stop, Symbo
 use typelift_plan::Explanation;
 use typelift_world::Verdict;
 
-use crate::blame::Suspect;
 use crate::monitor::StepResult;
 use crate::resort::LastResorts;
+use crate::suspect::Suspect;
 
 /// How an episode ended.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]

@@ -4,13 +4,16 @@
 //! tried again. Then it imagines and plans again: from the initial state if the world is set back (the paper's way),
 //! else from where it is.
 
-use typelift_model::{State, Symbol};
+use std::collections::BTreeSet;
+
+use typelift_belief::Deed;
+use typelift_model::{GroundAtom, State, Symbol};
 use typelift_plan::Ban;
 use typelift_world::{Expected, Record, TraceAction, Verdict};
 
 use crate::account::{Ending, Failure, SeenDone};
 use crate::actors::actors;
-use crate::deed::{Deed, Failed};
+use crate::deed::Failed;
 use crate::episode::{Episode, EpisodeError, Phase};
 use crate::event::{Event, Observer};
 use crate::execution::Execution;
@@ -231,22 +234,42 @@ impl Episode {
             suspects: Vec::new(),
         };
         let why = failure.in_words();
+        let acting = actors(&step, &self.model, before);
         let failed = Failed {
             deed,
+            count: 1 + u64::from(execution.retries),
+            when: 0,
             task: self.task,
             ban: execution.expected(before).map(|action| Ban::of(&action)),
-            actors: actors(&step, &self.model, before),
+            around: self.around(&step.objects, &acting, before),
+            actors: acting,
             in_goal: step.objects.iter().filter(|object| self.goal.mentions(object)).cloned().collect(),
             objection,
             useless: self.options.restart,
             rejected: result == StepResult::Rejected,
             reason: why.clone(),
+            suspects: Vec::new(),
         };
-        failure.suspects = self.experience.failed(failed);
+        self.experience.failed(failed);
+        self.reconsider();
+        let suspects = self.experience.failures().last().map(|failed| failed.suspects().cloned().collect());
+        failure.suspects = suspects.unwrap_or_default();
         for suspect in &failure.suspects {
             observer.event(&Event::Excluded { suspect: suspect.clone(), reason: why.clone() });
         }
         self.account.failures.push(failure);
+    }
+
+    /// What holds of who acts and of others than these, and can change.
+    fn around(&self, objects: &[Symbol], acting: &BTreeSet<Symbol>, state: &State) -> BTreeSet<GroundAtom> {
+        let effects = self.model.actions.iter().flat_map(|schema| &schema.effects);
+        let changing: BTreeSet<&Symbol> = effects.map(|effect| &effect.literal.atom.predicate).collect();
+        let is_around = |atom: &&GroundAtom| {
+            let of_step = |arg: &Symbol| objects.contains(arg);
+            let of_actor = |arg: &Symbol| acting.contains(arg);
+            changing.contains(&atom.predicate) && atom.args.iter().any(of_actor) && !atom.args.iter().all(of_step)
+        };
+        state.atoms.iter().filter(is_around).cloned().collect()
     }
 
     /// Plans anew: from the initial state if the world is set back, else from where it is.

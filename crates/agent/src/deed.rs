@@ -1,59 +1,14 @@
-//! What was done, by whom, where; and what came of it.
+//! What came of what was done.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
-use typelift_model::{ActionSchema, Hierarchy, State, Step, Symbol, Term};
+use typelift_belief::Deed;
+use typelift_model::{GroundAtom, State, Symbol};
 use typelift_plan::Ban;
 
 use crate::objection::Objection;
-
-/// An object that took part in an action.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct Participant {
-    /// Its name, which means something in its instance only.
-    pub object: Symbol,
-    /// Its type's name.
-    #[serde(rename = "type")]
-    pub ty: Symbol,
-    /// Its place among the call's arguments, from 0; none if the call does not name it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub place: Option<usize>,
-}
-
-/// Who took part in what, where.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct Deed {
-    /// The instance of the world.
-    pub instance: Symbol,
-    /// The call's name.
-    pub call: Symbol,
-    /// The predicates of what the action was to add.
-    pub adds: BTreeSet<Symbol>,
-    /// Who took part, in the order of the action's parameters.
-    pub participants: Vec<Participant>,
-}
-
-impl Deed {
-    /// What a step is, done by this action in this state of an instance.
-    pub fn of(step: &Step, schema: &ActionSchema, state: &State, instance: &Symbol, hierarchy: &Hierarchy) -> Self {
-        let participants = step.objects.iter().zip(&schema.parameters).enumerate();
-        let participants = participants.map(|(index, (object, parameter))| Participant {
-            object: object.clone(),
-            // What vanished had a type that fits.
-            ty: hierarchy.name(state.objects.get(object).copied().unwrap_or(parameter.ty)).clone(),
-            place: schema.call.args.iter().position(|term| *term == Term::Param(index as u32)),
-        });
-        Self {
-            instance: instance.clone(),
-            call: step.call.name.clone(),
-            adds: schema.adds().map(|atom| atom.predicate.clone()).collect(),
-            participants: participants.collect(),
-        }
-    }
-}
+use crate::suspect::{Condition, Suspect, Suspected};
 
 /// A deed that worked, and how often.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -63,6 +18,8 @@ pub struct Success {
     pub deed: Deed,
     /// How often it worked.
     pub count: u64,
+    /// Its place in the order of all deeds, the last time.
+    pub when: u64,
 }
 
 /// A deed that failed, its retries too, or that a person rejected.
@@ -71,14 +28,22 @@ pub struct Success {
 pub struct Failed {
     /// What was done.
     pub deed: Deed,
+    /// How often it failed in a row.
+    pub count: u64,
+    /// Its place in the order of all deeds.
+    pub when: u64,
     /// The number of the task, from 1.
     pub task: u64,
     /// The ground action, which is not to be tried again; none if something of it had vanished.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ban: Option<Ban>,
+    /// What held of who acted and of what did not take part, and can change: where not all of it holds, the ground action
+    /// may yet work.
+    #[serde(default, skip_serializing_if = "BTreeSet::is_empty")]
+    pub around: BTreeSet<GroundAtom>,
     /// Who acted: never to blame.
     pub actors: BTreeSet<Symbol>,
-    /// Who the goal speaks of: not to blame alone.
+    /// Who the goal speaks of: rarely to blame.
     pub in_goal: BTreeSet<Symbol>,
     /// What a person said against it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -90,9 +55,16 @@ pub struct Failed {
     pub rejected: bool,
     /// The failure, in words.
     pub reason: String,
+    /// What is to blame, as it looks with all that was tried until now.
+    pub suspects: Vec<Suspected>,
 }
 
 impl Failed {
+    /// What is to blame, however sure that is.
+    pub(crate) fn suspects(&self) -> impl Iterator<Item = &Suspect> {
+        self.suspects.iter().map(|suspected| &suspected.suspect)
+    }
+
     /// The ground action, if it is not to be tried again in this task.
     pub(crate) fn banned(&self, task: u64) -> Option<&Ban> {
         match &self.objection {
@@ -100,5 +72,25 @@ impl Failed {
             Some(Objection::NotNow) if self.task != task => None,
             _ => self.ban.as_ref(),
         }
+    }
+
+    /// The same, if it failed in an earlier task in other circumstances: then it may be tried in these.
+    pub(crate) fn banned_in(&self, task: u64, state: &State) -> Option<&Ban> {
+        let as_then = self.around.iter().all(|atom| state.holds(atom));
+        self.banned(task).filter(|_| self.task == task || self.rejected || as_then)
+    }
+
+    /// That it does not work in these circumstances, instead of never.
+    pub(crate) fn elsewhere(&self) -> Vec<Condition> {
+        let places = self.deed.participants.iter().filter_map(|one| Some((one.place?, one.object.clone())));
+        let args: BTreeMap<usize, Symbol> = places.collect();
+        let condition = |atom: &GroundAtom| Condition {
+            call: self.deed.call.clone(),
+            adds: self.deed.adds.clone(),
+            atom: atom.clone(),
+            holds: false,
+            args: args.clone(),
+        };
+        if self.rejected { Vec::new() } else { self.around.iter().map(condition).collect() }
     }
 }

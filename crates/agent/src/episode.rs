@@ -9,10 +9,11 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use thiserror::Error;
-use typelift_model::{ActionModel, Budget, Goal, GoalError, GroundAtom, Plan, State, Stop, Symbol};
+use typelift_model::{ActionModel, Budget, Goal, GoalError, GroundAtom, Observations, Plan, State, Stop, Symbol};
 use typelift_world::Verdict;
 
 use crate::account::{Account, Ending, StoppedAt};
+use crate::blame::Blame;
 use crate::event::{Event, Observer};
 use crate::execution::{Execution, Steps};
 use crate::experience::Experience;
@@ -75,6 +76,8 @@ pub struct Episode {
     pub(crate) goal: Goal,
     /// The values of the functions that costs mention.
     pub(crate) values: BTreeMap<GroundAtom, u32>,
+    /// What the model was learned from, as far as it is known.
+    pub(crate) evidence: Arc<Observations>,
     pub(crate) options: Options,
     pub(crate) budget: Budget,
     pub(crate) experience: Experience,
@@ -108,6 +111,7 @@ impl Episode {
             model,
             goal,
             values: BTreeMap::new(),
+            evidence: Arc::default(),
             instance: options.instance.clone().unwrap_or_else(|| Symbol::new("")),
             options,
             budget,
@@ -127,6 +131,19 @@ impl Episode {
     #[must_use]
     pub fn with_values(self, values: BTreeMap<GroundAtom, u32>) -> Self {
         Self { values, ..self }
+    }
+
+    /// The same with what the model was learned from: what failed then speaks against what is planned, and it says more of
+    /// what worked than the model does.
+    #[must_use]
+    pub fn with_evidence(self, evidence: Arc<Observations>) -> Self {
+        Self { evidence, ..self }
+    }
+
+    /// Weighs anew what is to blame for what failed.
+    pub(crate) fn reconsider(&mut self) {
+        let blame = Blame { rule: self.options.blame, model: &self.model, evidence: &self.evidence };
+        self.experience.reconsider(&blame);
     }
 
     /// What was tried so far, in this task and the ones before it.
@@ -284,6 +301,7 @@ impl Episode {
 
     pub(crate) fn end(&mut self, ending: Ending, observer: &mut dyn Observer) -> Command {
         self.phase = Phase::Over;
+        self.reconsider();
         if ending == Ending::Solved {
             self.account.plan = Some(self.plan_taken());
         }

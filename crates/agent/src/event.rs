@@ -4,9 +4,9 @@ use serde::Serialize;
 use typelift_model::{GroundAtom, GroundCall, Plan, Stop, Symbol};
 use typelift_world::{Record, Verdict};
 
-use crate::blame::Suspect;
 use crate::monitor::StepResult;
 use crate::resort::Resort;
+use crate::suspect::Suspect;
 
 /// Why no other plan is proposed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]

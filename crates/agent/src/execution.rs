@@ -7,7 +7,7 @@ use typelift_imagine::Loosening;
 use typelift_model::{ActionModel, ActionSchema, GroundAction, Plan, State, Step, Symbol};
 use typelift_plan::Restrictions;
 
-use crate::blame::Condition;
+use crate::suspect::Condition;
 
 /// On what terms a plan is made.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -19,6 +19,9 @@ pub(crate) struct Terms {
     pub(crate) conditions: Vec<Condition>,
     /// Actions are used although some of their effects hold already, whatever the options say.
     pub(crate) relaxed: bool,
+    /// What failed may be tried where what held around it then does not.
+    #[serde(default)]
+    pub(crate) elsewhere: bool,
     /// The preconditions that are done without.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(crate) loosened: Vec<Loosening>,

@@ -1,13 +1,16 @@
 //! What was tried, and what came of it: plain data, from which follows what to avoid.
 
 use serde::{Deserialize, Serialize};
-use typelift_model::Symbol;
+use typelift_model::{State, Symbol};
 use typelift_plan::{Ban, Restrictions};
 
 use crate::account::Avoided;
-use crate::blame::{Condition, Suspect, suspects};
-use crate::deed::{Deed, Failed, Success};
+use typelift_belief::Deed;
+
+use crate::blame::Blame;
+use crate::deed::{Failed, Success};
 use crate::resort::CountedExclusions;
+use crate::suspect::{Certainty, Condition, Suspect};
 
 /// Why something is avoided, and how often that was seen.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -24,6 +27,8 @@ pub struct Remembered {
 pub struct Experience {
     /// How many tasks were begun.
     tasks: u64,
+    /// How much was tried.
+    deeds: u64,
     /// What worked, sorted.
     successes: Vec<Success>,
     /// What failed, in order.
@@ -44,17 +49,29 @@ impl Experience {
 
     /// Notes that something worked.
     pub fn succeeded(&mut self, deed: Deed) {
+        self.deeds += 1;
+        let when = self.deeds;
         match self.successes.binary_search_by(|success| success.deed.cmp(&deed)) {
-            Ok(at) => self.successes[at].count += 1,
-            Err(at) => self.successes.insert(at, Success { deed, count: 1 }),
+            Ok(at) => {
+                self.successes[at].count += 1;
+                self.successes[at].when = when;
+            }
+            Err(at) => self.successes.insert(at, Success { deed, count: 1, when }),
         }
     }
 
-    /// Notes that something failed: what is to blame, as far as is known.
-    pub fn failed(&mut self, failed: Failed) -> Vec<Suspect> {
-        let suspects = suspects(&failed, &self.successes);
-        self.failures.push(failed);
-        suspects
+    /// Notes that something failed.
+    pub(crate) fn failed(&mut self, failed: Failed) {
+        self.deeds += 1;
+        self.failures.push(Failed { when: self.deeds, ..failed });
+    }
+
+    /// Weighs anew what is to blame for each failure, with all that was tried until now.
+    pub(crate) fn reconsider(&mut self, blame: &Blame<'_>) {
+        let suspects = blame.of_each(&self.failures, &self.successes, self.tasks);
+        for (failed, suspects) in self.failures.iter_mut().zip(suspects) {
+            failed.suspects = suspects;
+        }
     }
 
     /// What worked, sorted.
@@ -70,7 +87,7 @@ impl Experience {
     /// What is to blame for the failures, as seen from an instance, with the reasons, sorted.
     pub fn suspects(&self, instance: &Symbol) -> Vec<(Suspect, Remembered)> {
         let found = self.failures.iter().flat_map(|failed| {
-            let suspects = suspects(failed, &self.successes).into_iter();
+            let suspects = failed.suspects().cloned();
             let here = suspects.filter(|suspect| !suspect.belongs_to_instance() || failed.deed.instance == *instance);
             here.map(|suspect| (suspect, &failed.reason))
         });
@@ -85,11 +102,16 @@ impl Experience {
 
     /// What to avoid in the current task, in an instance: as a planner is told, and the conditions that keep actions
     /// from being used.
-    pub fn avoided(&self, instance: &Symbol, counted: CountedExclusions) -> (Restrictions, Vec<Condition>) {
+    pub fn avoided(
+        &self,
+        instance: &Symbol,
+        state: &State,
+        counted: CountedExclusions,
+    ) -> (Restrictions, Vec<Condition>) {
         let mut restrictions = Restrictions::default();
         let mut conditions = Vec::new();
         for failed in &self.failures {
-            let (ban, suspects) = self.avoided_after(failed, instance, counted);
+            let (ban, suspects) = self.avoided_after(failed, instance, state, counted);
             restrictions.banned.extend(ban.cloned());
             for suspect in suspects {
                 match suspect {
@@ -109,10 +131,10 @@ impl Experience {
     }
 
     /// The same with its reasons, what a person said first; each once.
-    pub(crate) fn avoided_because(&self, instance: &Symbol, counted: CountedExclusions) -> Vec<Avoided> {
+    pub(crate) fn avoided_because(&self, instance: &Symbol, state: &State, counted: CountedExclusions) -> Vec<Avoided> {
         let mut found: Vec<Avoided> = Vec::new();
         for failed in &self.failures {
-            let (ban, suspects) = self.avoided_after(failed, instance, counted);
+            let (ban, suspects) = self.avoided_after(failed, instance, state, counted);
             let avoided = Avoided { reason: failed.reason.clone(), by_person: failed.rejected, suspects };
             if (ban.is_some() || !avoided.suspects.is_empty()) && !found.contains(&avoided) {
                 found.push(avoided);
@@ -127,18 +149,28 @@ impl Experience {
         &self,
         failed: &'f Failed,
         instance: &Symbol,
+        state: &State,
         counted: CountedExclusions,
     ) -> (Option<&'f Ban>, Vec<Suspect>) {
         let is_here = failed.deed.instance == *instance;
-        let counts = failed.objection.is_some()
-            || match counted {
-                CountedExclusions::All => true,
-                CountedExclusions::OfThisTask => failed.task == self.tasks,
-                CountedExclusions::None => false,
-            };
-        let mut suspects = if counts { suspects(failed, &self.successes) } else { Vec::new() };
+        let in_this_task = failed.task == self.tasks;
+        let counts = |certainty: Certainty| match counted {
+            _ if failed.objection.is_some() => true,
+            CountedExclusions::All => true,
+            CountedExclusions::Likely => certainty > Certainty::Guessed,
+            CountedExclusions::OfThisTask => in_this_task,
+            CountedExclusions::None | CountedExclusions::Elsewhere => false,
+        };
+        let suspects = failed.suspects.iter().filter(|suspected| counts(suspected.certainty));
+        let mut suspects: Vec<Suspect> = suspects.map(|suspected| suspected.suspect.clone()).collect();
         suspects.retain(|suspect| is_here || !suspect.belongs_to_instance());
-        (failed.banned(self.tasks).filter(|_| is_here), suspects)
+        let mut ban = failed.banned_in(self.tasks, state).filter(|_| is_here);
+        let elsewhere = failed.elsewhere();
+        if counted == CountedExclusions::Elsewhere && ban.is_some() && !elsewhere.is_empty() {
+            ban = None;
+            suspects.extend(elsewhere.into_iter().map(Suspect::Condition));
+        }
+        (ban, suspects)
     }
 }
 
@@ -153,125 +185,71 @@ fn counted<'a, T: Ord>(found: impl Iterator<Item = (T, &'a String)>) -> Vec<(T, 
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeMap;
+
+    use typelift_plan::{Exclusion, TypeExclusion};
+
     use super::*;
-    use typelift_model::GroundAtom;
-
-    use crate::deed::Participant;
     use crate::objection::Objection;
+    use crate::suspect::Suspected;
 
-    /// `use(agent_1, TOOL, FOOD)`, which is to bring about `makes`. A type is a name without its number.
-    fn deed(instance: &str, makes: &str, tool: &str, food: &str) -> Deed {
-        let participant = |(place, object): (usize, &str)| {
-            let ty = object.split('_').next().unwrap_or_default();
-            Participant { object: object.into(), ty: ty.into(), place: Some(place) }
-        };
-        let participants = ["agent_1", tool, food].into_iter().enumerate().map(participant).collect();
-        Deed { instance: instance.into(), call: "use".into(), adds: [makes.into()].into(), participants }
-    }
-
-    fn failed(deed: Deed, in_goal: &[&str], objection: Option<Objection>) -> Failed {
+    /// A failure of `use` in an instance, which was blamed on a board and on nuts.
+    fn failed(task: u64, objection: Option<Objection>) -> Failed {
+        let (call, adds) = (Symbol::new("use"), ["cut".into()]);
+        let types = BTreeMap::from([(2, "nut".into())]);
         Failed {
-            deed,
-            task: 1,
+            deed: Deed {
+                instance: "here".into(),
+                call: call.clone(),
+                adds: adds.clone().into(),
+                participants: Vec::new(),
+                held: std::collections::BTreeSet::new(),
+            },
+            count: 1,
+            when: 0,
+            task,
             ban: None,
+            around: std::collections::BTreeSet::new(),
             actors: ["agent_1".into()].into(),
-            in_goal: in_goal.iter().map(|&object| object.into()).collect(),
+            in_goal: ["nut_1".into()].into(),
             objection,
             useless: false,
             rejected: false,
             reason: "it failed".to_owned(),
+            suspects: vec![
+                Suspected {
+                    suspect: Suspect::Object(Exclusion { object: "board_1".into(), call: Some(call.clone()) }),
+                    certainty: Certainty::Guessed,
+                },
+                Suspected {
+                    suspect: Suspect::Types(TypeExclusion { call, adds: adds.into(), types }),
+                    certainty: Certainty::Likely,
+                },
+            ],
         }
-    }
-
-    fn blamed(failed: &Failed, worked: &[Deed]) -> Vec<String> {
-        let mut experience = Experience::new();
-        worked.iter().for_each(|deed| experience.succeeded(deed.clone()));
-        suspects(failed, experience.successes()).iter().map(ToString::to_string).collect()
-    }
-
-    #[test]
-    fn objects_then_types_then_pairs() {
-        let failure = failed(deed("here", "cut", "board_1", "nut_1"), &["nut_1"], None);
-        let (soup, cut) = (deed("here", "soup", "board_1", "leek_1"), deed("here", "cut", "board_1", "leek_1"));
-        let nut = deed("here", "cut", "board_1", "nut_2");
-        assert_eq!(blamed(&failure, &[]), ["board_1 from use"]);
-        assert_eq!(
-            blamed(&failure, std::slice::from_ref(&soup)),
-            ["any board from use for cut"],
-            "it worked for something else"
-        );
-        assert_eq!(blamed(&failure, &[soup, cut.clone()]), ["any board with any nut from use for cut"]);
-        assert!(blamed(&failure, &[cut, nut]).is_empty(), "nothing is left, and nothing is made up");
-    }
-
-    #[test]
-    fn a_pair_that_the_call_does_not_name_is_avoided_by_its_object() {
-        // The call names a switch; the machine and what is in it take part without being named.
-        let pressed = |food: &str| {
-            let mut deed = deed("here", "cut", "saw_1", food);
-            deed.participants.iter_mut().skip(1).for_each(|participant| participant.place = None);
-            deed
-        };
-        let failure = failed(pressed("sheet_1"), &["sheet_1"], None);
-        assert_eq!(blamed(&failure, &[pressed("dowel_1")]), ["saw_1 from use"]);
-        assert!(blamed(&failure, &[pressed("dowel_1"), pressed("sheet_2")]).is_empty(), "saws cut sheets");
-    }
-
-    #[test]
-    fn an_object_is_known_in_its_instance_a_type_everywhere() {
-        let failure = failed(deed("here", "cut", "board_1", "nut_1"), &["nut_1"], None);
-        assert_eq!(blamed(&failure, &[deed("there", "cut", "board_1", "leek_1")]), ["board_1 from use"]);
-        let here_and_there = [deed("here", "soup", "board_1", "leek_1"), deed("there", "cut", "board_9", "leek_1")];
-        assert_eq!(blamed(&failure, &here_and_there), ["any board with any nut from use for cut"]);
-    }
-
-    #[test]
-    fn what_worked_is_not_blamed_beside_what_never_did() {
-        let failure = failed(deed("here", "cut", "board_1", "nut_1"), &[], None);
-        assert_eq!(blamed(&failure, &[]), ["board_1 from use", "nut_1 from use"]);
-        assert_eq!(blamed(&failure, &[deed("here", "cut", "board_1", "leek_1")]), ["nut_1 from use"]);
-    }
-
-    #[test]
-    fn who_acts_and_what_the_goal_is_about_are_not_blamed_alone() {
-        let failure = failed(deed("here", "cut", "board_1", "nut_1"), &["board_1", "nut_1"], None);
-        assert!(blamed(&failure, &[]).is_empty());
-    }
-
-    #[test]
-    fn a_person_names_the_suspect() {
-        let said =
-            |objection| blamed(&failed(deed("here", "cut", "board_1", "nut_1"), &["nut_1"], Some(objection)), &[]);
-        let nut = || vec!["nut_1".into()];
-        assert_eq!(said(Objection::Broken { objects: vec![] }), ["board_1 from use"]);
-        assert_eq!(said(Objection::Broken { objects: nut() }), ["nut_1 from use"]);
-        assert_eq!(said(Objection::WrongKind { objects: vec![] }), ["any board from use for cut"]);
-        assert_eq!(said(Objection::WrongKind { objects: nut() }), ["any nut from use for cut"]);
-        let atom = GroundAtom::new("wet", nut());
-        assert_eq!(said(Objection::While { atom }), ["use while wet(nut_1)"]);
-        assert!(said(Objection::NotNow).is_empty());
     }
 
     #[test]
     fn restrictions_are_of_the_instance_and_of_the_task() {
         let mut experience = Experience::new();
         experience.begin_task();
-        experience.failed(failed(deed("here", "cut", "board_1", "nut_1"), &["nut_1"], None));
-        let objection = Objection::WrongKind { objects: vec!["nut_1".into()] };
-        experience.failed(failed(deed("here", "cut", "board_1", "nut_1"), &["nut_1"], Some(objection)));
+        experience.failed(failed(1, None));
         experience.begin_task();
-        let counts = |instance: &str, counted| {
-            let (restrictions, _) = experience.avoided(&instance.into(), counted);
+        let counts = |experience: &Experience, instance: &str, counted| {
+            let (restrictions, _) = experience.avoided(&instance.into(), &State::default(), counted);
             (restrictions.excluded.len(), restrictions.types.len())
         };
-        assert_eq!(counts("here", CountedExclusions::All), (1, 1));
+        assert_eq!(counts(&experience, "here", CountedExclusions::All), (1, 1));
+        assert_eq!(counts(&experience, "here", CountedExclusions::Likely), (0, 1));
         assert_eq!(
-            counts("there", CountedExclusions::All),
+            counts(&experience, "there", CountedExclusions::All),
             (0, 1),
             "a thing stays where it is, a kind is the same everywhere"
         );
-        assert_eq!(counts("here", CountedExclusions::OfThisTask), (0, 1), "what a person said is not lifted");
-        assert_eq!(counts("here", CountedExclusions::None), (0, 1));
+        assert_eq!(counts(&experience, "here", CountedExclusions::OfThisTask), (0, 0));
+        experience.failed(failed(1, Some(Objection::NotNow)));
+        assert_eq!(counts(&experience, "here", CountedExclusions::OfThisTask), (1, 1), "what a person said stays");
+        assert_eq!(counts(&experience, "here", CountedExclusions::None), (1, 1));
         let text = serde_json::to_string(&experience).expect("JSON");
         assert_eq!(serde_json::from_str::<Experience>(&text).expect("the same"), experience);
     }

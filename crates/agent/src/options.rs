@@ -5,6 +5,8 @@ use std::sync::Arc;
 use typelift_model::Symbol;
 use typelift_plan::ExternalPlanner;
 
+use crate::blame::BlameRule;
+
 /// How an episode goes about its task.
 #[derive(Debug, Clone)]
 pub struct Options {
@@ -20,6 +22,8 @@ pub struct Options {
     pub restart: bool,
     /// How often a failed step is tried again; by default once, and never with `restart`.
     pub retries: Option<u32>,
+    /// Whom a failure is blamed on.
+    pub blame: BlameRule,
     /// Plans proposed at most.
     pub max_proposals: u64,
     /// The instance of the world that names belong to, whatever the world says.
@@ -38,6 +42,7 @@ impl Default for Options {
             planner: None,
             restart: false,
             retries: None,
+            blame: BlameRule::default(),
             max_proposals: 12,
             instance: None,
             ignores_case: false,

@@ -6,7 +6,6 @@ use typelift_model::{ActionModel, Budget, Plan, State, Stop, Task};
 use typelift_plan::{Outcome, Report};
 
 use crate::account::Ending;
-use crate::blame::with_conditions;
 use crate::episode::{Episode, EpisodeError, Phase};
 use crate::event::{Event, Observer, WhyNoOther};
 use crate::execution::{Execution, Terms, steps};
@@ -14,7 +13,11 @@ use crate::loosening::{propose, propose_loosened};
 use crate::options::Options;
 use crate::propose::{Proposal, ProposeError, attempt, loosened_and_widened};
 use crate::resort::{CountedExclusions, Resort};
+use crate::suspect::with_conditions;
 use crate::turn::Command;
+
+/// The expansions of a search for a way to try elsewhere what failed: it is a last hope, and often there is no such way.
+const ELSEWHERE: u64 = 500;
 
 /// What planning came to, on which terms.
 struct Planned {
@@ -34,6 +37,7 @@ impl Episode {
         if self.account.proposals >= self.options.max_proposals {
             return Ok(self.end(Ending::ProposalLimit(self.options.max_proposals), observer));
         }
+        self.reconsider();
         let Planned { mut proposal, terms, resort } = match self.plan_with_last_resorts(observer) {
             Ok(planned) => planned,
             Err(ProposeError::Stopped(stop)) => return Ok(self.end(Ending::Stopped(stop), observer)),
@@ -59,7 +63,8 @@ impl Episode {
             Outcome::Unsolvable | Outcome::NoMorePlans => {
                 self.account.goal_type_mismatches = proposal.goal_type_mismatches();
                 self.account.given_up = proposal.imagination.given_up.clone();
-                self.account.avoided = self.experience.avoided_because(&self.instance, self.account.resorts.counted());
+                let counted = self.account.resorts.counted();
+                self.account.avoided = self.experience.avoided_because(&self.instance, &self.state, counted);
                 Ending::NoPlan(proposal.explain())
             }
             Outcome::Stopped(stop) => Ending::Stopped(*stop),
@@ -193,13 +198,18 @@ impl Episode {
             return Ok(Planned { proposal, terms: usual, resort: None });
         }
         let resorts: Vec<Resort> = self.account.resorts.iter().map(|last| last.resort).collect();
+        let mut in_vain = vec![usual.clone()];
         for resort in resorts {
             let Some(terms) = self.terms_by(resort, counted, &usual) else { continue };
+            if in_vain.contains(&terms) {
+                continue;
+            }
             let other = self.plan_aloud(&terms, observer)?;
             if has_answer(&other.outcome) {
                 return Ok(Planned { proposal: other, terms, resort: Some(resort) });
             }
             self.account.resorts.tried(resort, None);
+            in_vain.push(terms);
         }
         if proposal.outcome == Outcome::Unsolvable
             && let Some(loosened) = self.plan_loosened(&usual, observer)?
@@ -239,18 +249,24 @@ impl Episode {
     /// world back only lifts what was excluded before it; nor is more given up where nothing has failed yet.
     fn terms_by(&self, resort: Resort, counted: CountedExclusions, usual: &Terms) -> Option<Terms> {
         let goes_on = !self.options.restart && !self.account.failures.is_empty();
-        let terms = match resort {
-            Resort::EarlierExclusions if counted == CountedExclusions::All => self.terms(CountedExclusions::OfThisTask),
+        Some(match resort {
+            Resort::GuessedExclusions if counted == CountedExclusions::All => self.terms(CountedExclusions::Likely),
+            Resort::EarlierExclusions if matches!(counted, CountedExclusions::All | CountedExclusions::Likely) => {
+                self.terms(CountedExclusions::OfThisTask)
+            }
             Resort::Strictness if goes_on && self.options.strict => Terms { relaxed: true, ..usual.clone() },
-            Resort::AllExclusions if goes_on => self.terms(CountedExclusions::None),
+            Resort::AllExclusions if goes_on && counted != CountedExclusions::Elsewhere => {
+                self.terms(CountedExclusions::None)
+            }
+            Resort::Bans if goes_on => self.terms(CountedExclusions::Elsewhere),
             _ => return None,
-        };
-        (terms != *usual).then_some(terms)
+        })
     }
 
     fn terms(&self, counted: CountedExclusions) -> Terms {
-        let (restrictions, conditions) = self.experience.avoided(&self.instance, counted);
-        Terms { restrictions, conditions, relaxed: false, loosened: Vec::new() }
+        let (restrictions, conditions) = self.experience.avoided(&self.instance, &self.state, counted);
+        let elsewhere = counted == CountedExclusions::Elsewhere;
+        Terms { restrictions, conditions, relaxed: false, elsewhere, loosened: Vec::new() }
     }
 
     /// Plans, and tells of it.
@@ -294,7 +310,11 @@ impl Episode {
     fn plan_on(&self, terms: &Terms) -> Result<Proposal, ProposeError> {
         let (task, options) = self.asked(terms, &self.state);
         let model = with_conditions(&self.model, &terms.conditions);
-        attempt(&model, &task, &terms.restrictions, &options, &terms.loosened, &self.budget)
+        let mut budget = self.budget.clone();
+        if terms.elsewhere {
+            budget.expansions = Some(budget.expansions.unwrap_or(ELSEWHERE).min(ELSEWHERE));
+        }
+        attempt(&model, &task, &terms.restrictions, &options, &terms.loosened, &budget)
     }
 
     /// The model that a plan on these terms for this state is made with.

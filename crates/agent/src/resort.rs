@@ -1,8 +1,9 @@
 //! What is given up, one thing after the other, where there is no plan.
 //!
-//! Without restart, the agent says that nothing is left to try only after all of them, in this order: exclusions
-//! inherited from earlier tasks are lifted, then strictness is, then this task's own exclusions. Ground actions that
-//! failed stay banned throughout, and so does what a person objected to. The account says what became of each.
+//! Without restart, the agent says that nothing is left to try only after all of them, in this order: strictness is given up,
+//! exclusions that are guesses are lifted, then those inherited from earlier tasks, then this task's own. Ground actions that
+//! failed stay banned throughout, until in the end they may be tried where what held around them then does not. What a
+//! person objected to is not lifted. The account says what became of each.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,10 +12,14 @@ use serde::{Deserialize, Serialize};
 pub enum CountedExclusions {
     /// All.
     All,
+    /// Those that are more than guesses, and those that a person asked for.
+    Likely,
     /// Those that failures in the current task led to, and those that a person asked for.
     OfThisTask,
     /// Those that a person asked for.
     None,
+    /// Those that a person asked for; and what failed may be tried again in other circumstances.
+    Elsewhere,
 }
 
 /// What may be given up.
@@ -22,20 +27,26 @@ pub enum CountedExclusions {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Resort {
+    /// What was excluded as a guess may be used, from then on.
+    GuessedExclusions,
     /// What was excluded in earlier tasks may be used, from then on.
     EarlierExclusions,
     /// Actions may be used although some of what they add holds already, for one proposal.
     Strictness,
     /// Whatever was excluded may be used, from then on. Ground actions that failed stay banned.
     AllExclusions,
+    /// A ground action that failed may be tried where what held around it then does not, from then on.
+    Bans,
 }
 
 impl Resort {
     /// A short phrase for what is given up.
     pub fn phrase(self) -> &'static str {
         match self {
+            Self::GuessedExclusions => "exclusions that are guesses are lifted",
             Self::EarlierExclusions | Self::AllExclusions => "exclusions are lifted",
             Self::Strictness => "effects may hold already",
+            Self::Bans => "what failed may be tried elsewhere",
         }
     }
 }
@@ -72,7 +83,14 @@ pub struct LastResorts(Vec<LastResort>);
 impl Default for LastResorts {
     fn default() -> Self {
         let untried = |resort| LastResort { resort, state: ResortState::Untried };
-        Self([Resort::EarlierExclusions, Resort::Strictness, Resort::AllExclusions].map(untried).to_vec())
+        let all = [
+            Resort::Strictness,
+            Resort::GuessedExclusions,
+            Resort::EarlierExclusions,
+            Resort::AllExclusions,
+            Resort::Bans,
+        ];
+        Self(all.map(untried).to_vec())
     }
 }
 
@@ -89,7 +107,7 @@ impl LastResorts {
 
     /// Whether exclusions were lifted.
     pub fn lifted(&self) -> bool {
-        self.is_taken(Resort::EarlierExclusions) || self.is_taken(Resort::AllExclusions)
+        [Resort::EarlierExclusions, Resort::AllExclusions, Resort::Bans].into_iter().any(|resort| self.is_taken(resort))
     }
 
     /// Whether some plan was made without strictness, although it was asked for.
@@ -99,10 +117,14 @@ impl LastResorts {
 
     /// Which exclusions count, with what was given up so far.
     pub(crate) fn counted(&self) -> CountedExclusions {
-        if self.is_taken(Resort::AllExclusions) {
+        if self.is_taken(Resort::Bans) {
+            CountedExclusions::Elsewhere
+        } else if self.is_taken(Resort::AllExclusions) {
             CountedExclusions::None
         } else if self.is_taken(Resort::EarlierExclusions) {
             CountedExclusions::OfThisTask
+        } else if self.is_taken(Resort::GuessedExclusions) {
+            CountedExclusions::Likely
         } else {
             CountedExclusions::All
         }

@@ -259,6 +259,7 @@ impl Episode {
             in_vain: in_vain.collect::<Result<_, RestoreError>>()?,
             state: saved.state.restored(hierarchy)?,
             model,
+            evidence: Arc::default(),
             goal: saved.goal,
             values: saved.values.into_iter().collect(),
             options,

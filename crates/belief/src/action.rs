@@ -2,38 +2,60 @@
 
 use std::collections::BTreeMap;
 
-use typelift_model::{ActionSchema, Hierarchy, LiftedAtom, Observations, TypeId};
+use typelift_model::{ActionModel, ActionSchema, Hierarchy, LiftedAtom, Observations, Symbol, TypeId};
 
-use crate::outcome::{Outcome, outcomes, worked_at};
-use crate::suspicion::{Pair, literal_odds, pair_odds, pairs};
+use crate::deed::Tried;
+use crate::object::OutOfOrder;
+use crate::outcome::{Outcome, outcomes, tried, worked_at};
+use crate::suspicion::{Pair, absence_odds, literal_odds, pair_odds, pairs};
 use crate::types::{Seen, TypeBelief};
 use crate::{CHANCE, MOST_ALIKE, odds};
 
 /// How often the blame is shared anew.
-const ROUNDS: usize = 8;
+const ROUNDS: usize = 16;
 
 /// The least odds that a type is rejected where only others worked that it has nothing in common with: the hierarchy says
 /// that it is another kind of thing, and nothing that was seen says otherwise.
 const FOREIGN: f64 = (1.0 - CHANCE) / CHANCE;
 
+/// What a declared type counts, in successes.
+const DECLARED: f64 = 3.0;
+
+/// Between what was said before and what is said now: where failures share several causes, the blame would else go to all of
+/// them and to none of them in turn.
+fn halfway(before: &BTreeMap<Cause, f64>, mut now: BTreeMap<Cause, f64>) -> BTreeMap<Cause, f64> {
+    for (cause, share) in &mut now {
+        *share = (*share + before.get(cause).copied().unwrap_or_default()) / 2.0;
+    }
+    now
+}
+
 /// Something that can be to blame for a failure of an action.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Cause {
+pub enum Cause {
+    /// An object, in its instance of the world.
+    Object(Symbol),
     /// The type at a parameter.
     Type(usize, TypeId),
-    /// Two types together.
+    /// Two types together, each at a parameter.
     Together(Pair),
     /// A literal that did not hold.
     Missing(LiftedAtom),
+    /// A literal that held, and must not.
+    Present(LiftedAtom),
     /// Nothing that is known.
     Chance,
 }
 
 /// What is believed of one action.
 #[derive(Debug, Clone)]
-pub(crate) struct ActionBelief {
+pub struct ActionBelief {
     /// Whether the call ever did anything else than the action says.
     pub(crate) has_failed: bool,
+    /// Whether who stands at a parameter acts.
+    acts: Vec<bool>,
+    /// Whether it rests on no observation, but was written by somebody.
+    is_given: bool,
     /// The type of each parameter, which covers what worked.
     covers: Vec<TypeId>,
     /// For each parameter the lowest type that covers all that worked there; none if that is the top.
@@ -42,22 +64,33 @@ pub(crate) struct ActionBelief {
     types: Vec<TypeBelief>,
     outcomes: Vec<Outcome>,
     blamed: BTreeMap<Cause, f64>,
+    /// How much each failure speaks for what may have caused it, and how often it was seen.
+    clauses: Vec<(BTreeMap<Cause, f64>, u64)>,
     /// The logarithmic odds that each literal is needed, without any blame.
     literals: BTreeMap<LiftedAtom, f64>,
+    /// The same, that it must not hold.
+    absent: BTreeMap<LiftedAtom, f64>,
 }
 
 impl ActionBelief {
-    /// What observations say of a learned action. In time of the failures, times the types of the hierarchy.
-    pub(crate) fn new(schema: &ActionSchema, observed: &Observations, hierarchy: &Hierarchy) -> Self {
-        let outcomes = outcomes(schema, observed, hierarchy);
+    /// What observations say of a learned action, and what was tried of it besides. In time of the failures, times the types
+    /// of the hierarchy.
+    pub fn new(schema: &ActionSchema, observed: &Observations, run: &[Tried<'_>], model: &ActionModel) -> Self {
+        let hierarchy = &model.hierarchy;
+        let mut outcomes = outcomes(schema, observed, hierarchy);
+        outcomes.extend(run.iter().filter_map(|one| tried(schema, one, hierarchy, run)));
         let mut belief = Self {
             has_failed: outcomes.iter().any(|outcome| !outcome.worked),
+            acts: schema.parameters.iter().map(|parameter| model.is_actor(parameter.ty)).collect(),
+            is_given: schema.provenance.support().is_empty(),
             covers: schema.parameters.iter().map(|parameter| parameter.ty).collect(),
             worked_below: worked_below(&worked_at(&outcomes, schema.parameters.len()), hierarchy),
             top: hierarchy.top(),
             types: Vec::new(),
             literals: literal_odds(schema, &outcomes),
+            absent: absence_odds(&outcomes),
             blamed: BTreeMap::new(),
+            clauses: Vec::new(),
             outcomes,
         };
         belief.believe_types(hierarchy);
@@ -65,18 +98,43 @@ impl ActionBelief {
         let mut own = vec![BTreeMap::new(); failures.len()];
         for _ in 0..ROUNDS {
             let shared = failures.iter().zip(&own);
-            own = shared.map(|(failure, own)| belief.shares(hierarchy, failure, own)).collect();
+            own = shared.map(|(failure, own)| halfway(own, belief.shares(hierarchy, failure, own))).collect();
             belief.blamed = BTreeMap::new();
             for (cause, share) in own.iter().flatten() {
                 *belief.blamed.entry(cause.clone()).or_default() += share;
             }
             belief.believe_types(hierarchy);
         }
+        belief.clauses = own.into_iter().zip(failures.iter().map(|failure| failure.count)).collect();
         belief
     }
 
+    /// How likely a call works against which these causes speak, with their odds. Where it failed before, one of what may have
+    /// caused that is at fault, or it was chance, though nobody knows which.
+    pub(crate) fn works(&self, causes: &[(Cause, f64)]) -> f64 {
+        let odds_of: BTreeMap<&Cause, f64> = causes.iter().map(|(cause, odds)| (cause, *odds)).collect();
+        let innocent = |odds: f64| 1.0 / (1.0 + odds);
+        let by_now: f64 = causes.iter().map(|(_, odds)| innocent(*odds)).product();
+        let after = |(clause, count): &(BTreeMap<Cause, f64>, u64)| -> Option<f64> {
+            let mut all_innocent = 1.0;
+            for (cause, share) in clause {
+                let before = odds_of.get(cause)?.ln() + share * CHANCE.ln();
+                all_innocent *= innocent(odds(before));
+            }
+            let chance = CHANCE.powf((*count as f64).min(MOST_ALIKE));
+            let others = causes.iter().filter(|(cause, _)| !clause.contains_key(cause));
+            let others: f64 = others.map(|(_, odds)| innocent(*odds)).product();
+            Some(others * all_innocent * chance / (all_innocent * chance + 1.0 - all_innocent))
+        };
+        self.clauses.iter().filter_map(after).fold(by_now, f64::min)
+    }
+
     fn believe_types(&mut self, hierarchy: &Hierarchy) {
-        let worked = worked_at(&self.outcomes, self.covers.len());
+        let mut worked = worked_at(&self.outcomes, self.covers.len());
+        if self.is_given {
+            // Who wrote the action said which types it is for.
+            worked.iter_mut().zip(&self.covers).for_each(|(worked, ty)| *worked.entry(*ty).or_default() += DECLARED);
+        }
         let mut seen: Vec<BTreeMap<TypeId, Seen>> = worked
             .into_iter()
             .map(|worked| worked.into_iter().map(|(ty, worked)| (ty, Seen { worked, blamed: 0.0 })).collect())
@@ -89,13 +147,14 @@ impl ActionBelief {
         self.types = seen.iter().map(|seen| TypeBelief::new(hierarchy, seen)).collect();
     }
 
-    /// What may be to blame where these types are used and these atoms do not hold, with its odds; without the blame that is
-    /// its `own`.
+    /// What may be to blame where these types are used, these atoms do not hold and those do, with its odds; without the
+    /// blame that is its `own`.
     fn causes(
         &self,
         hierarchy: &Hierarchy,
         types: &[Option<TypeId>],
         missing: impl IntoIterator<Item = LiftedAtom>,
+        present: impl IntoIterator<Item = LiftedAtom>,
         own: &BTreeMap<Cause, f64>,
     ) -> Vec<(Cause, f64)> {
         let mut causes = Vec::new();
@@ -115,15 +174,19 @@ impl ActionBelief {
         }
         let blamed = |cause: &Cause| (share(own, cause) - share(&self.blamed, cause)) * CHANCE.ln();
         if self.has_failed {
-            for pair in pairs(types) {
+            // Who acts goes with whatever it can go with: to pair it says nothing of its own.
+            let paired =
+                pairs(types).into_iter().filter(|((one, _), (other, _))| !self.acts[*one] && !self.acts[*other]);
+            for pair in paired {
                 let (before, cause) = (pair_odds(&pair, &self.outcomes), Cause::Together(pair));
                 causes.push((cause.clone(), odds(before + blamed(&cause))));
             }
         }
-        for atom in missing {
-            let Some(before) = self.literals.get(&atom) else { continue };
-            let cause = Cause::Missing(atom);
-            causes.push((cause.clone(), odds(before + blamed(&cause))));
+        let missing = missing.into_iter().filter_map(|atom| Some((*self.literals.get(&atom)?, Cause::Missing(atom))));
+        let present = present.into_iter().filter_map(|atom| Some((*self.absent.get(&atom)?, Cause::Present(atom))));
+        for (before, cause) in missing.chain(present) {
+            let now = odds(before + blamed(&cause));
+            causes.push((cause, now));
         }
         causes
     }
@@ -134,8 +197,9 @@ impl ActionBelief {
         hierarchy: &Hierarchy,
         types: &[Option<TypeId>],
         missing: impl IntoIterator<Item = LiftedAtom>,
+        present: impl IntoIterator<Item = LiftedAtom>,
     ) -> Vec<(Cause, f64)> {
-        let mut causes = self.causes(hierarchy, types, missing, &BTreeMap::new());
+        let mut causes = self.causes(hierarchy, types, missing, present, &BTreeMap::new());
         if self.has_failed {
             causes.push((Cause::Chance, CHANCE / (1.0 - CHANCE)));
         }
@@ -145,6 +209,44 @@ impl ActionBelief {
     /// The literals that may be needed.
     pub(crate) fn literals(&self) -> impl Iterator<Item = &LiftedAtom> {
         self.literals.keys()
+    }
+
+    /// The literals that may stand in the way.
+    pub(crate) fn absent(&self) -> impl Iterator<Item = &LiftedAtom> {
+        self.absent.keys()
+    }
+
+    /// What may have caused a failure of the run, with the odds that it is at fault now that all is known; none if it was of
+    /// another action.
+    pub fn blame(
+        &self,
+        schema: &ActionSchema,
+        failure: &Tried<'_>,
+        run: &[Tried<'_>],
+        hierarchy: &Hierarchy,
+    ) -> Vec<(Cause, f64)> {
+        let Some(failure) = tried(schema, failure, hierarchy, run) else { return Vec::new() };
+        let mut causes = self.causes_of(hierarchy, &failure, &BTreeMap::new());
+        for (cause, odds) in &mut causes {
+            if let Cause::Object(object) = cause {
+                *odds *= failure.objects.get(object).map_or(1.0, |object| object.since.exp());
+            }
+        }
+        causes.sort_by(|(a, x), (b, y)| y.total_cmp(x).then_with(|| a.cmp(b)));
+        causes
+    }
+
+    /// What may have caused a failure, chance apart.
+    fn causes_of(&self, hierarchy: &Hierarchy, failure: &Outcome, own: &BTreeMap<Cause, f64>) -> Vec<(Cause, f64)> {
+        let held = failure.held.iter().filter(|atom| self.absent.contains_key(*atom)).cloned();
+        let mut causes = self.causes(hierarchy, &failure.types, self.missing_in(failure), held, own);
+        for (object, OutOfOrder { then: before, .. }) in &failure.objects {
+            let cause = Cause::Object(object.clone());
+            let share = |shares: &BTreeMap<Cause, f64>| shares.get(&cause).copied().unwrap_or_default();
+            let now = odds(before + (share(own) - share(&self.blamed)) * CHANCE.ln());
+            causes.push((cause, now));
+        }
+        causes
     }
 
     /// With successes alone, whatever the generalized type covers is accepted, as in the paper.
@@ -159,14 +261,20 @@ impl ActionBelief {
         self.worked_below[at].is_some_and(shares_nothing)
     }
 
-    /// The blame of one failure, shared among what may have caused it, in proportion to the odds that all other
-    /// observations give; `own` is the blame that it gave before, which is taken out of them.
+    /// How much one failure speaks for each of what may have caused it, as so many failures that nothing else explains: the
+    /// less, the likelier the others are at fault by all other observations. What it said before is its `own`, and is
+    /// taken out of them. (Messages of a noisy-or, as in Pearl, *Probabilistic Reasoning in Intelligent Systems*, 1988.)
     fn shares(&self, hierarchy: &Hierarchy, failure: &Outcome, own: &BTreeMap<Cause, f64>) -> BTreeMap<Cause, f64> {
-        let count = (failure.count as f64).min(MOST_ALIKE);
-        let mut causes = self.causes(hierarchy, &failure.types, self.missing_in(failure), own);
-        causes.push((Cause::Chance, CHANCE.powf(count)));
-        let sum: f64 = causes.iter().map(|(_, odds)| odds).sum();
-        causes.into_iter().map(|(cause, odds)| (cause, count * odds / sum)).collect()
+        let causes = self.causes_of(hierarchy, failure, own);
+        let innocent: Vec<f64> = causes.iter().map(|(_, odds)| 1.0 / (1.0 + odds)).collect();
+        let not_by_chance = 1.0 - CHANCE.powf((failure.count as f64).min(MOST_ALIKE));
+        let share = |at: usize| {
+            let others = innocent.iter().enumerate().filter(|(other, _)| *other != at).map(|(_, innocent)| innocent);
+            let unexplained = not_by_chance * others.product::<f64>();
+            (1.0 - unexplained).ln() / CHANCE.ln()
+        };
+        let shares: Vec<f64> = (0..causes.len()).map(share).collect();
+        causes.into_iter().map(|(cause, _)| cause).zip(shares).collect()
     }
 
     /// The literals that held in a success and are known not to have held here.

@@ -24,11 +24,13 @@ pub struct Question<'q> {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Culprit {
+    /// An object, in its instance of the world.
+    Object,
     /// A type in its place.
     Type,
     /// Two types together.
     Pair,
-    /// A literal that does not hold.
+    /// A literal that does not hold; after `not` one that holds.
     Literal,
     /// Nothing that is known.
     Chance,
@@ -68,7 +70,7 @@ impl<'m> Belief<'m> {
     /// What a model's evidence says of its actions.
     pub fn of(learned: &'m LearnedModel) -> Self {
         let (model, observed) = (&learned.model, learned.evidence.total());
-        let actions = model.actions.iter().map(|schema| ActionBelief::new(schema, &observed, &model.hierarchy));
+        let actions = model.actions.iter().map(|schema| ActionBelief::new(schema, &observed, &[], model));
         Self { model, actions: actions.collect() }
     }
 
@@ -86,15 +88,16 @@ impl<'m> Belief<'m> {
         for (parameter, argument) in bound.iter().enumerate().filter_map(|(p, argument)| Some((p, (*argument)?))) {
             types[parameter] = Some(question.types[argument]?);
         }
-        let missing = belief.literals().filter_map(|atom| {
-            let ground = ground(atom, &bound, question.call)?;
-            let state = question.state?;
+        let known = |atom: &LiftedAtom, holds: bool| {
+            let (ground, state) = (ground(atom, &bound, question.call)?, question.state?);
             let is_there = |arg: &Symbol| state.objects.contains_key(arg) || self.model.constants.contains_key(arg);
             let tells = ground.args.iter().all(is_there) && !state.is_unknown(&ground);
-            (tells && !state.holds(&ground)).then(|| atom.clone())
-        });
-        let causes = belief.against(&self.model.hierarchy, &types, missing);
-        let p = causes.iter().map(|(_, odds)| 1.0 / (1.0 + odds)).product();
+            (tells && state.holds(&ground) == holds).then(|| atom.clone())
+        };
+        let missing = belief.literals().filter_map(|atom| known(atom, false));
+        let present = belief.absent().filter_map(|atom| known(atom, true));
+        let causes = belief.against(&self.model.hierarchy, &types, missing, present);
+        let p = belief.works(&causes);
         let sum: f64 = causes.iter().map(|(_, odds)| odds).sum();
         let mut suspects: Vec<Suspect> = causes
             .into_iter()
@@ -107,14 +110,15 @@ impl<'m> Belief<'m> {
 
     fn suspect(&self, cause: &Cause, share: f64, bound: &[Option<usize>], call: &GroundCall) -> Suspect {
         let hierarchy: &Hierarchy = &self.model.hierarchy;
+        let in_call = |atom| ground(atom, bound, call).map(|atom| atom.to_string()).unwrap_or_default();
         let (kind, what) = match cause {
             Cause::Type(_, ty) => (Culprit::Type, hierarchy.name(*ty).to_string()),
             Cause::Together(((_, one), (_, other))) => {
                 (Culprit::Pair, format!("{} with {}", hierarchy.name(*one), hierarchy.name(*other)))
             }
-            Cause::Missing(atom) => {
-                (Culprit::Literal, ground(atom, bound, call).map(|atom| atom.to_string()).unwrap_or_default())
-            }
+            Cause::Missing(atom) => (Culprit::Literal, in_call(atom)),
+            Cause::Present(atom) => (Culprit::Literal, format!("not {}", in_call(atom))),
+            Cause::Object(object) => (Culprit::Object, object.to_string()),
             Cause::Chance => (Culprit::Chance, String::new()),
         };
         Suspect { kind, what, share }

@@ -13,20 +13,27 @@
 //! | file | what it holds |
 //! |---|---|
 //! | `types` | which types a place accepts |
+//! | `deed` | what was tried in a run, by which objects |
 //! | `outcome` | what was observed of an action: what worked, and what did not |
 //! | `suspicion` | literals and pairs of types, with the odds that they matter |
+//! | `object` | objects, with the odds that they are out of order |
 //! | `action` | all of it for one action: sharing the blame |
 //! | `judgement` | what is read off for a call |
 
 #![deny(missing_docs)]
 
 mod action;
+mod deed;
 mod judgement;
+mod object;
 mod outcome;
 mod suspicion;
 mod types;
 
+pub use action::{ActionBelief, Cause};
+pub use deed::{Deed, Participant, Tried};
 pub use judgement::{Belief, Culprit, Judgement, Question, Suspect};
+pub use suspicion::Pair;
 
 /// How often something happens that nothing explains.
 pub(crate) const CHANCE: f64 = 0.02;

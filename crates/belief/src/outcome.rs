@@ -1,10 +1,14 @@
-//! What was observed of an action: where it worked, and where its call did something else, or nothing.
+//! What was observed of an action, and what was tried in a run: where it worked, and where its call did something else, or
+//! nothing.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use typelift_model::{
-    ActionSchema, Cluster, ClusterKey, Hierarchy, LiftedAtom, Observations, PreStates, Symbol, Term, TypeId,
+    ActionSchema, Cluster, ClusterKey, Hierarchy, LiftedAtom, Observations, PreStates, Support, Symbol, Term, TypeId,
 };
+
+use crate::deed::{Deed, Tried};
+use crate::object::{OutOfOrder, out_of_order};
 
 /// Observations that were alike.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,6 +19,8 @@ pub(crate) struct Outcome {
     pub(crate) held: BTreeSet<LiftedAtom>,
     pub(crate) count: u64,
     pub(crate) worked: bool,
+    /// The objects that may have been out of order; none where objects are not known.
+    pub(crate) objects: BTreeMap<Symbol, OutOfOrder>,
 }
 
 impl Outcome {
@@ -25,6 +31,13 @@ impl Outcome {
             Term::Const(_) => true,
         })
     }
+
+    /// Whether all preconditions are known to have held.
+    fn is_applicable(&self, schema: &ActionSchema) -> bool {
+        let mut preconditions = schema.preconditions.iter();
+        preconditions
+            .all(|literal| self.tells_of(&literal.atom) && self.held.contains(&literal.atom) == literal.positive)
+    }
 }
 
 /// All of an action: what it rests on, what else its call did, and where it did nothing. What had the same effect worked,
@@ -34,14 +47,22 @@ pub(crate) fn outcomes(schema: &ActionSchema, observed: &Observations, hierarchy
     let mut of_action: BTreeSet<&ClusterKey> = BTreeSet::new();
     for support in schema.provenance.support() {
         of_action.insert(&support.cluster);
-        if let Some(cluster) = observed.clusters.get(&*support.cluster) {
-            let map: Vec<Option<u32>> = support.map.iter().copied().map(Some).collect();
-            add(&mut outcomes, schema, hierarchy, &support.cluster.types, &map, cluster, true);
+        let map: Vec<Option<u32>> = support.map.iter().copied().map(Some).collect();
+        match observed.clusters.get(&*support.cluster) {
+            Some(cluster) => add(&mut outcomes, schema, hierarchy, &support.cluster.types, &map, cluster, true),
+            None => outcomes.push(by_provenance(schema, support, hierarchy, &map)),
         }
     }
     for (key, cluster) in observed.clusters.iter().filter(|(key, _)| !of_action.contains(key)) {
         if let Some(map) = along_call(schema, &key.action, key.types.len(), &key.call) {
-            add(&mut outcomes, schema, hierarchy, &key.types, &map, cluster, does_the_same(schema, key, &map));
+            let known = outcomes.len();
+            let worked = does_the_same(schema, key, &map);
+            add(&mut outcomes, schema, hierarchy, &key.types, &map, cluster, worked);
+            if !worked {
+                // Where the action is not to be used, that something else happened is another action's affair.
+                let others = outcomes.split_off(known);
+                outcomes.extend(others.into_iter().filter(|outcome| outcome.is_applicable(schema)));
+            }
         }
     }
     for (key, cluster) in &observed.negatives {
@@ -50,6 +71,63 @@ pub(crate) fn outcomes(schema: &ActionSchema, observed: &Observations, hierarchy
         }
     }
     outcomes
+}
+
+/// What an action alone tells of a cluster that it rests on: the types, and that its preconditions held.
+fn by_provenance(schema: &ActionSchema, support: &Support, hierarchy: &Hierarchy, map: &[Option<u32>]) -> Outcome {
+    let positive = schema.preconditions.iter().filter(|literal| literal.positive);
+    Outcome {
+        types: types_of(&support.cluster.types, map, schema, hierarchy),
+        held: positive.map(|literal| literal.atom.clone()).collect(),
+        count: support.observations,
+        worked: true,
+        objects: BTreeMap::new(),
+    }
+}
+
+/// What was tried of an action in a run, as an outcome of it; none if it was another's, or by another call.
+pub(crate) fn tried(
+    schema: &ActionSchema,
+    tried: &Tried<'_>,
+    hierarchy: &Hierarchy,
+    all: &[Tried<'_>],
+) -> Option<Outcome> {
+    let deed = tried.deed;
+    let known = deed.by_parameter(schema).filter(|_| deed.is_of(schema))?;
+    let mut map = vec![None; deed.participants.len()];
+    for (parameter, participant) in known.iter().enumerate() {
+        if let Some(participant) = participant {
+            map[*participant] = Some(parameter as u32);
+        }
+    }
+    let types: Vec<Symbol> = deed.participants.iter().map(|participant| participant.ty.clone()).collect();
+    Some(Outcome {
+        types: types_of(&types, &map, schema, hierarchy),
+        held: deed.held.iter().filter_map(|atom| mapped(atom, &map)).collect(),
+        count: tried.count,
+        worked: tried.worked,
+        objects: if tried.worked { BTreeMap::new() } else { object_odds(tried, deed, all) },
+    })
+}
+
+fn object_odds(failure: &Tried<'_>, deed: &Deed, all: &[Tried<'_>]) -> BTreeMap<Symbol, OutOfOrder> {
+    let others = deed.participants.iter().filter(|participant| !failure.actors.contains(&participant.object));
+    others.map(|participant| (participant.object.clone(), out_of_order(failure, &participant.object, all))).collect()
+}
+
+fn types_of(
+    names: &[Symbol],
+    map: &[Option<u32>],
+    schema: &ActionSchema,
+    hierarchy: &Hierarchy,
+) -> Vec<Option<TypeId>> {
+    let mut types = vec![None; schema.parameters.len()];
+    for (name, parameter) in names.iter().zip(map) {
+        if let (Some(parameter), Some(ty)) = (parameter, hierarchy.id(name.as_str())) {
+            types[*parameter as usize] = Some(ty);
+        }
+    }
+    types
 }
 
 /// Whether what was observed is what the action predicts.
@@ -95,15 +173,10 @@ fn add(
     cluster: &Cluster,
     worked: bool,
 ) {
-    let mut types = vec![None; schema.parameters.len()];
-    for (name, parameter) in names.iter().zip(map) {
-        if let (Some(parameter), Some(ty)) = (parameter, hierarchy.id(name.as_str())) {
-            types[*parameter as usize] = Some(ty);
-        }
-    }
+    let types = types_of(names, map, schema, hierarchy);
     let mut one = |state: &BTreeSet<LiftedAtom>, count: u64| {
         let held = state.iter().filter_map(|atom| mapped(atom, map)).collect();
-        outcomes.push(Outcome { types: types.clone(), held, count, worked });
+        outcomes.push(Outcome { types: types.clone(), held, count, worked, objects: BTreeMap::new() });
     };
     match &cluster.states {
         PreStates::Exact(states) => states.iter().for_each(|(state, count)| one(state, *count)),

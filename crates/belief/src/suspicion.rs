@@ -1,5 +1,5 @@
-//! What can be to blame besides the type in a place: a literal that has to hold, and two types that do not go together. Each
-//! has odds, as they are before any failure has its share of blame.
+//! What can be to blame besides the type in a place: a literal that has to hold, or must not; two types that do not go
+//! together. Each has odds, as they are before any failure has its share of blame.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -15,11 +15,15 @@ const DELETED: f64 = 20.0;
 const TOUCHED: f64 = 2.0;
 const OTHER: f64 = 1.0;
 
+/// The odds that what never held where it worked must not hold, and how often such an atom does not hold anyway.
+const MUST_NOT: f64 = 0.02;
+const FALSE_ANYWAY: f64 = 0.8;
+
 /// The odds that two types do not go together, though each goes with others.
 const PAIR: f64 = 0.06;
 
 /// Two parameters and the types there.
-pub(crate) type Pair = ((usize, TypeId), (usize, TypeId));
+pub type Pair = ((usize, TypeId), (usize, TypeId));
 
 /// The logarithmic odds that each literal is needed, of those that held in some success.
 pub(crate) fn literal_odds(schema: &ActionSchema, outcomes: &[Outcome]) -> BTreeMap<LiftedAtom, f64> {
@@ -40,6 +44,19 @@ pub(crate) fn literal_odds(schema: &ActionSchema, outcomes: &[Outcome]) -> BTree
         prior.ln() - count(true) * HOLDS_ANYWAY.ln() + count(false) * CHANCE.ln()
     };
     atoms.into_iter().map(|atom| (atom.clone(), odds(atom))).collect()
+}
+
+/// The logarithmic odds that what held where it failed, and never where it worked, must not hold.
+pub(crate) fn absence_odds(outcomes: &[Outcome]) -> BTreeMap<LiftedAtom, f64> {
+    let worked = || outcomes.iter().filter(|outcome| outcome.worked);
+    let failed = outcomes.iter().filter(|outcome| !outcome.worked);
+    let atoms: BTreeSet<&LiftedAtom> = failed.flat_map(|outcome| &outcome.held).collect();
+    let never = atoms.into_iter().filter(|atom| !worked().any(|outcome| outcome.held.contains(*atom)));
+    let odds = |atom: &LiftedAtom| {
+        let told = worked().filter(|outcome| outcome.tells_of(atom)).map(|outcome| outcome.count as f64);
+        MUST_NOT.ln() - told.sum::<f64>() * FALSE_ANYWAY.ln()
+    };
+    never.map(|atom| (atom.clone(), odds(atom))).collect()
 }
 
 /// Every pair of types of an outcome.

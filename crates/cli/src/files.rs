@@ -3,7 +3,9 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use typelift::model::{ActionModel, Hierarchy, LearnedModel, ModelFileError, ParseConfig, Symbol, Task, did_you_mean};
+use typelift::model::{
+    ActionModel, Hierarchy, LearnedModel, ModelFileError, Observations, ParseConfig, Symbol, Task, did_you_mean,
+};
 use typelift::pddl::misfits;
 use typelift::words::count;
 use typelift::world::{
@@ -67,6 +69,14 @@ pub(crate) enum TaskInput {
 }
 
 impl ModelInput {
+    /// What it was learned from; nothing for a domain.
+    pub(crate) fn evidence(&self) -> Observations {
+        match self {
+            Self::Learned(learned) => learned.evidence.total().into_owned(),
+            Self::Given(_) => Observations::default(),
+        }
+    }
+
     /// The model alone.
     pub(crate) fn model(&self) -> &ActionModel {
         match self {

@@ -7,8 +7,8 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use clap::ValueEnum;
-use typelift::agent::{Command, Ending, Episode, EpisodeError, Experience, Input, Options, RunError, run};
-use typelift::model::{ActionModel, Plan, State, Stop, Symbol, Task};
+use typelift::agent::{BlameRule, Command, Ending, Episode, EpisodeError, Experience, Input, Options, RunError, run};
+use typelift::model::{ActionModel, Observations, Plan, State, Stop, Symbol, Task};
 use typelift::words::{AccountView, BrokenOffView, summary};
 use typelift::world::{
     FileError, Parser, RecordSink, Recorder, Reset, Scene, TaskFile, TraceHeader, UnreadKey, World, read_text,
@@ -84,6 +84,9 @@ pub(crate) struct Run {
     /// After a failure set the environment back and plan from the start, as the paper does
     #[arg(long)]
     restart: bool,
+    /// Whom failures are blamed on
+    #[arg(long, value_name = "RULE", default_value = "belief")]
+    blame: Blame,
     /// Try a failed step again N times [default: 1, with --restart 0]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     retries: Option<u32>,
@@ -118,11 +121,22 @@ struct Given<'a> {
     tasks: Vec<ToDo<'a>>,
 }
 
+/// Whom failures are blamed on.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum Blame {
+    /// What is likelier at fault than not, by all that was learned and tried
+    Belief,
+    /// Every object that took part and neither acts nor is in the goal
+    Paper,
+}
+
 /// What goes on from task to task.
 struct Session<'a> {
     clock: Clock,
     interrupt: &'a Interrupt,
     quiet: bool,
+    /// What was learned from before anything was done.
+    evidence: Arc<Observations>,
     /// What was learned up to now, and the model of it.
     input: ModelInput,
     model: Arc<ActionModel>,
@@ -199,6 +213,7 @@ impl Run {
             clock,
             interrupt,
             quiet,
+            evidence: Arc::new(input.evidence()),
             input,
             model,
             memory,
@@ -231,8 +246,20 @@ impl Run {
         // PDDL does not tell upper from lower case.
         let ignores_case = matches!(what, TaskInput::Problem(_));
         let (model, task) = session.pose(path, what)?;
-        let Session { clock, interrupt, quiet, input, memory, options, world, narrator, experience, told_keys, .. } =
-            session;
+        let Session {
+            clock,
+            interrupt,
+            quiet,
+            input,
+            evidence,
+            memory,
+            options,
+            world,
+            narrator,
+            experience,
+            told_keys,
+            ..
+        } = session;
         let name = task_name(path);
         if narrator.aloud {
             anstream::eprintln!("{HEAD}{name}{HEAD:#}");
@@ -243,7 +270,8 @@ impl Run {
         let options = Options { ignores_case, ..options.clone() };
         let mut episode =
             Episode::new(Arc::clone(&model), task.goal.clone(), options, experience.clone(), budget.clone())
-                .with_values(task.values);
+                .with_values(task.values)
+                .with_evidence(Arc::clone(evidence));
         let mut parser = Parser::new(model.hierarchy.clone(), input.parse()).knowing(&model.predicates);
         let mut confirm = |plan: &Plan| confirm(self.confirm, plan, &model, interrupt);
         let header = TraceHeader { task: name.clone(), goal: task.goal };
@@ -361,6 +389,10 @@ impl Run {
     fn options(&self, is_given: bool) -> Result<Options, Failure> {
         Ok(Options {
             restart: self.restart,
+            blame: match self.blame {
+                Blame::Belief => BlameRule::Belief,
+                Blame::Paper => BlameRule::Paper,
+            },
             retries: self.retries,
             max_proposals: self.max_proposals,
             instance: self.instance.as_deref().map(Symbol::new),

@@ -71,6 +71,7 @@ pub fn why_lines(view: &WhyView) -> Vec<Text> {
         let what = match suspect.kind {
             Culprit::Type => format!("{} may not do there", suspect.what),
             Culprit::Pair => format!("{} may not go together", suspect.what),
+            Culprit::Object => format!("{} may be out of order", suspect.what),
             Culprit::Literal => format!("{} does not hold, and may be needed", suspect.what),
             Culprit::Chance => "chance".to_owned(),
         };

@@ -74,8 +74,8 @@ fn a_type_that_works_with_another_tool_is_cleared_and_the_pair_is_left() {
     let bone = [("saw", "bone", true, false), ("axe", "bone", true, true)];
     let folder = model(&[&WORKED[..], &bone].concat());
     let (once, first) = asked(&folder, "cut(saw, bone)");
-    // It may have been chance.
-    assert!((30..60).contains(&once), "{once}");
+    // It may have been chance, which is about a third as likely as an exception.
+    assert!((15..35).contains(&once), "{once}");
     assert_eq!(first, "pair saw with bone");
     assert!(asked(&folder, "cut(axe, bone)").0 > 80);
     let folder = model(&[&WORKED[..], &bone, &bone[..1]].concat());
