@@ -252,8 +252,7 @@ impl Episode {
         };
         self.experience.failed(failed);
         self.reconsider();
-        let suspects = self.experience.failures().last().map(|failed| failed.suspects().cloned().collect());
-        failure.suspects = suspects.unwrap_or_default();
+        failure.suspects = self.experience.failures().last().into_iter().flat_map(Failed::suspects).cloned().collect();
         for suspect in &failure.suspects {
             observer.event(&Event::Excluded { suspect: suspect.clone(), reason: why.clone() });
         }

@@ -87,7 +87,7 @@ impl Blame<'_> {
         let is_of = |objects: &BTreeSet<Symbol>, at: usize| objects.contains(&failed.deed.participants[at].object);
         // To avoid what the goal speaks of is to give it up.
         let least = |cause: &Cause| match cause {
-            Cause::Object(object) if failed.in_goal.contains(object) => f64::INFINITY,
+            Cause::Object { object, .. } if failed.in_goal.contains(object) => f64::INFINITY,
             // Who acts is never to blame alone.
             Cause::Type(at, _) if is_of(&failed.actors, *at) => f64::INFINITY,
             Cause::Type(at, _) if is_of(&failed.in_goal, *at) => SETTLED,
@@ -123,11 +123,7 @@ impl Blame<'_> {
         let deed = &failed.deed;
         let name = |ty: TypeId| self.model.hierarchy.name(ty).clone();
         let place = |parameter: usize| schema.call.args.iter().position(|term| *term == Term::Param(parameter as u32));
-        let exclusion = |object: &Symbol| {
-            let acts = failed.actors.contains(object);
-            let call = (!failed.useless).then(|| deed.call.clone());
-            (!acts).then(|| Suspect::Object(Exclusion { object: object.clone(), call }))
-        };
+        let exclusion = |object: &Symbol| (!failed.actors.contains(object)).then(|| excluded(failed, object));
         let unnamed = |ty: TypeId| {
             let of_type = |one: &&Participant| one.place.is_none() && one.ty == name(ty);
             exclusion(&deed.participants.iter().find(of_type)?.object)
@@ -138,7 +134,7 @@ impl Blame<'_> {
             Some(Suspect::Types(TypeExclusion { call: deed.call.clone(), adds: deed.adds.clone(), types }))
         };
         match cause {
-            Cause::Object(object) => exclusion(&object),
+            Cause::Object { object, .. } => exclusion(&object),
             Cause::Type(parameter, ty) => types(&[(parameter, ty)]).or_else(|| unnamed(ty)),
             Cause::Together((one, other)) => {
                 types(&[one, other]).or_else(|| unnamed(one.1)).or_else(|| unnamed(other.1))
@@ -161,7 +157,7 @@ const ABOUT_AS_LIKELY: f64 = 1.3;
 fn extent(cause: &Cause) -> usize {
     match cause {
         Cause::Together(_) => 0,
-        Cause::Object(_) => 1,
+        Cause::Object { .. } => 1,
         Cause::Missing(_) | Cause::Present(_) => 2,
         Cause::Type(..) => 3,
         Cause::Chance => 4,
@@ -176,8 +172,7 @@ fn tried(failed: &Failed, task: u64) -> Tried<'_> {
 
 /// That a literal over an action's parameters has to hold, or must not; none where the call does not name them.
 fn condition(deed: &Deed, schema: &ActionSchema, atom: &LiftedAtom, holds: bool) -> Option<Suspect> {
-    let args: BTreeMap<usize, Symbol> =
-        deed.participants.iter().filter_map(|one| Some((one.place?, one.object.clone()))).collect();
+    let args = deed.named();
     let object = |term: &Term| match term {
         Term::Const(name) => Some(name.clone()),
         Term::Param(_) => args.get(&schema.call.args.iter().position(|arg| arg == term)?).cloned(),
@@ -202,9 +197,8 @@ fn objected(failed: &Failed, objection: &Objection) -> Vec<Suspect> {
         }
         Objection::WrongKind { objects } => types(deed, named(objects)).into_iter().collect(),
         Objection::While { atom } => {
-            let placed = deed.participants.iter().filter_map(|one| Some((one.place?, one.object.clone())));
             let (call, adds, atom) = (deed.call.clone(), deed.adds.clone(), atom.clone());
-            vec![Suspect::Condition(Condition { call, adds, atom, holds: false, args: placed.collect() })]
+            vec![Suspect::Condition(Condition { call, adds, atom, holds: false, args: deed.named() })]
         }
         Objection::NotNow => Vec::new(),
     }
@@ -217,10 +211,13 @@ fn suspected(failed: &Failed) -> Vec<&Participant> {
 }
 
 fn broken(failed: &Failed, participants: Vec<&Participant>) -> Vec<Suspect> {
-    let call = (!failed.useless).then(|| failed.deed.call.clone());
     let objects: BTreeSet<&Symbol> = participants.into_iter().map(|participant| &participant.object).collect();
-    let exclusion = |object: &Symbol| Suspect::Object(Exclusion { object: object.clone(), call: call.clone() });
-    objects.into_iter().map(exclusion).collect()
+    objects.into_iter().map(|object| excluded(failed, object)).collect()
+}
+
+fn excluded(failed: &Failed, object: &Symbol) -> Suspect {
+    let call = (!failed.useless).then(|| failed.deed.call.clone());
+    Suspect::Object(Exclusion { object: object.clone(), call })
 }
 
 /// The types of these, together at their places; none if one of them has no place.
@@ -374,6 +371,25 @@ mod tests {
     }
 
     #[test]
+    fn things_of_one_name_in_two_places_are_two() {
+        let (here, there) = (deed("here", "board_1", "leek_1", &[]), deed("there", "board_1", "leek_1", &[]));
+        let board = |others: &[Deed]| {
+            let model = model(&FOODS);
+            let failures: Vec<Failed> =
+                [std::slice::from_ref(&here), others].concat().into_iter().map(|deed| failed(deed, None)).collect();
+            let run: Vec<Tried<'_>> = failures.iter().map(|failed| tried(failed, 1)).collect();
+            let belief = ActionBelief::new(&model.actions[0], &Observations::default(), &run, &model);
+            let causes = belief.blame(&model.actions[0], &run[0], &run, &model.hierarchy);
+            let board =
+                causes.iter().find(|(cause, _)| matches!(cause, Cause::Object { object, .. } if *object == *"board_1"));
+            board.expect("a cause").1
+        };
+        // What fails twice here is likelier broken; what fails there as well says something of its kind, if of anything.
+        let (once, twice, elsewhere) = (board(&[]), board(std::slice::from_ref(&here)), board(&[there]));
+        assert!(twice > once && elsewhere <= once, "{once} {twice} {elsewhere}");
+    }
+
+    #[test]
     fn nothing_is_blamed_for_long_on_a_thing() {
         let failure = [deed("here", "board_1", "leek_1", &[])];
         let odds = |task| {
@@ -383,7 +399,8 @@ mod tests {
             let schema = &model.actions[0];
             let belief = ActionBelief::new(schema, &Observations::default(), &run, &model);
             let causes = belief.blame(schema, &run[0], &run, &model.hierarchy);
-            let board = causes.iter().find(|(cause, _)| *cause == Cause::Object("board_1".into()));
+            let board =
+                causes.iter().find(|(cause, _)| matches!(cause, Cause::Object { object, .. } if *object == *"board_1"));
             board.expect("a cause").1
         };
         let ratio = |earlier, later| odds(earlier) / odds(later);

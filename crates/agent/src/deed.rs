@@ -1,6 +1,6 @@
 //! What came of what was done.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use serde::{Deserialize, Serialize};
 use typelift_belief::Deed;
@@ -82,8 +82,7 @@ impl Failed {
 
     /// That it does not work in these circumstances, instead of never.
     pub(crate) fn elsewhere(&self) -> Vec<Condition> {
-        let places = self.deed.participants.iter().filter_map(|one| Some((one.place?, one.object.clone())));
-        let args: BTreeMap<usize, Symbol> = places.collect();
+        let args = self.deed.named();
         let condition = |atom: &GroundAtom| Condition {
             call: self.deed.call.clone(),
             adds: self.deed.adds.clone(),

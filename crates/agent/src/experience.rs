@@ -1,12 +1,11 @@
 //! What was tried, and what came of it: plain data, from which follows what to avoid.
 
 use serde::{Deserialize, Serialize};
+use typelift_belief::Deed;
 use typelift_model::{State, Symbol};
 use typelift_plan::{Ban, Restrictions};
 
 use crate::account::Avoided;
-use typelift_belief::Deed;
-
 use crate::blame::Blame;
 use crate::deed::{Failed, Success};
 use crate::resort::CountedExclusions;

@@ -1,5 +1,5 @@
-//! A running episode as JSON text, and back: everything but what the driver hands in again (model, options, budget) and
-//! what can be computed again (imagined actions, and the search, which is only taken up where another plan is wanted).
+//! A running episode as JSON text, and back: everything but what the driver hands in again (model, evidence, options,
+//! budget) and what can be computed again (imagined actions, and the search, which is only taken up where another plan is wanted).
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -231,6 +231,8 @@ impl Episode {
     /// The episode that was saved, with the same model and options; what stands is asked for by
     /// [`Input::Started`](crate::Input::Started). The same inputs lead to the same commands as without saving, as far as
     /// the budget allows: what was spent before is not counted.
+    ///
+    /// [Evidence](Self::with_evidence) is handed in again as well, if there was some.
     ///
     /// The cost is that of imagining once, where imagination is allowed.
     ///

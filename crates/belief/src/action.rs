@@ -2,12 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use typelift_model::{ActionModel, ActionSchema, Hierarchy, LiftedAtom, Observations, Symbol, TypeId};
+use typelift_model::{ActionModel, ActionSchema, Hierarchy, LiftedAtom, Observations, TypeId};
 
+use crate::cause::Cause;
 use crate::deed::Tried;
 use crate::object::OutOfOrder;
 use crate::outcome::{Outcome, outcomes, tried, worked_at};
-use crate::suspicion::{Pair, absence_odds, literal_odds, pair_odds, pairs};
+use crate::suspicion::{absence_odds, literal_odds, pair_odds, pairs};
 use crate::types::{Seen, TypeBelief};
 use crate::{CHANCE, MOST_ALIKE, odds};
 
@@ -20,32 +21,6 @@ const FOREIGN: f64 = (1.0 - CHANCE) / CHANCE;
 
 /// What a declared type counts, in successes.
 const DECLARED: f64 = 3.0;
-
-/// Between what was said before and what is said now: where failures share several causes, the blame would else go to all of
-/// them and to none of them in turn.
-fn halfway(before: &BTreeMap<Cause, f64>, mut now: BTreeMap<Cause, f64>) -> BTreeMap<Cause, f64> {
-    for (cause, share) in &mut now {
-        *share = (*share + before.get(cause).copied().unwrap_or_default()) / 2.0;
-    }
-    now
-}
-
-/// Something that can be to blame for a failure of an action.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Cause {
-    /// An object, in its instance of the world.
-    Object(Symbol),
-    /// The type at a parameter.
-    Type(usize, TypeId),
-    /// Two types together, each at a parameter.
-    Together(Pair),
-    /// A literal that did not hold.
-    Missing(LiftedAtom),
-    /// A literal that held, and must not.
-    Present(LiftedAtom),
-    /// Nothing that is known.
-    Chance,
-}
 
 /// What is believed of one action.
 #[derive(Debug, Clone)]
@@ -158,7 +133,6 @@ impl ActionBelief {
         own: &BTreeMap<Cause, f64>,
     ) -> Vec<(Cause, f64)> {
         let mut causes = Vec::new();
-        let share = |shares: &BTreeMap<Cause, f64>, cause: &Cause| shares.get(cause).copied().unwrap_or_default();
         for (at, ty) in types.iter().enumerate().filter_map(|(at, ty)| Some((at, (*ty)?))) {
             if !self.is_settled(hierarchy, at, ty) {
                 let mut accepted = self.types[at].accepts(ty);
@@ -172,7 +146,7 @@ impl ActionBelief {
                 causes.push((cause, odds(rejected.max(least))));
             }
         }
-        let blamed = |cause: &Cause| (share(own, cause) - share(&self.blamed, cause)) * CHANCE.ln();
+        let blamed = |cause: &Cause| self.blamed_by_others(cause, own);
         if self.has_failed {
             // Who acts goes with whatever it can go with: to pair it says nothing of its own.
             let paired =
@@ -228,8 +202,8 @@ impl ActionBelief {
         let Some(failure) = tried(schema, failure, hierarchy, run) else { return Vec::new() };
         let mut causes = self.causes_of(hierarchy, &failure, &BTreeMap::new());
         for (cause, odds) in &mut causes {
-            if let Cause::Object(object) = cause {
-                *odds *= failure.objects.get(object).map_or(1.0, |object| object.since.exp());
+            if let Some(object) = failure.objects.get(cause) {
+                *odds *= object.since.exp();
             }
         }
         causes.sort_by(|(a, x), (b, y)| y.total_cmp(x).then_with(|| a.cmp(b)));
@@ -240,13 +214,15 @@ impl ActionBelief {
     fn causes_of(&self, hierarchy: &Hierarchy, failure: &Outcome, own: &BTreeMap<Cause, f64>) -> Vec<(Cause, f64)> {
         let held = failure.held.iter().filter(|atom| self.absent.contains_key(*atom)).cloned();
         let mut causes = self.causes(hierarchy, &failure.types, self.missing_in(failure), held, own);
-        for (object, OutOfOrder { then: before, .. }) in &failure.objects {
-            let cause = Cause::Object(object.clone());
-            let share = |shares: &BTreeMap<Cause, f64>| shares.get(&cause).copied().unwrap_or_default();
-            let now = odds(before + (share(own) - share(&self.blamed)) * CHANCE.ln());
-            causes.push((cause, now));
+        for (cause, OutOfOrder { then: before, .. }) in &failure.objects {
+            causes.push((cause.clone(), odds(before + self.blamed_by_others(cause, own))));
         }
         causes
+    }
+
+    /// By how much all failures but the one whose blame is its `own` raise the logarithmic odds of a cause.
+    fn blamed_by_others(&self, cause: &Cause, own: &BTreeMap<Cause, f64>) -> f64 {
+        (share(own, cause) - share(&self.blamed, cause)) * CHANCE.ln()
     }
 
     /// With successes alone, whatever the generalized type covers is accepted, as in the paper.
@@ -288,4 +264,17 @@ fn worked_below(worked: &[BTreeMap<TypeId, f64>], hierarchy: &Hierarchy) -> Vec<
     let top = hierarchy.top();
     let covering = |worked: &BTreeMap<TypeId, f64>| worked.keys().copied().reduce(|a, b| hierarchy.lca(a, b));
     worked.iter().map(|worked| covering(worked).filter(|&ty| !hierarchy.is_a(top, ty))).collect()
+}
+
+/// Between what was said before and what is said now: where failures share several causes, the blame would else go to all of
+/// them and to none of them in turn.
+fn halfway(before: &BTreeMap<Cause, f64>, mut now: BTreeMap<Cause, f64>) -> BTreeMap<Cause, f64> {
+    for (cause, share) in &mut now {
+        *share = (*share + self::share(before, cause)) / 2.0;
+    }
+    now
+}
+
+fn share(shares: &BTreeMap<Cause, f64>, cause: &Cause) -> f64 {
+    shares.get(cause).copied().unwrap_or_default()
 }

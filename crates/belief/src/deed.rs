@@ -1,6 +1,6 @@
 //! What was done in a run: by whom, where, and what came of it. Unlike evidence, which speaks of types, a deed names objects.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 use typelift_model::{ActionSchema, Hierarchy, LiftedAtom, State, Step, Symbol, Term};
@@ -62,23 +62,26 @@ impl Deed {
         as_many && self.call == schema.call.name && self.adds.iter().eq(adds)
     }
 
-    /// The participant at each of an action's parameters, as far as it is known; none where the calls differ.
-    pub(crate) fn by_parameter(&self, schema: &ActionSchema) -> Option<Vec<Option<usize>>> {
-        let same = |(index, participant): (usize, &Participant)| {
-            participant.place == schema.call.args.iter().position(|term| *term == Term::Param(index as u32))
+    /// The objects that the call names, by their places.
+    pub fn named(&self) -> BTreeMap<usize, Symbol> {
+        self.participants.iter().filter_map(|one| Some((one.place?, one.object.clone()))).collect()
+    }
+
+    /// For each participant the parameter of an action that does the same; where the action takes them in another order, as
+    /// far as the call says it. None for an action that does something else.
+    pub(crate) fn parameters(&self, schema: &ActionSchema) -> Option<Vec<Option<u32>>> {
+        if !self.is_of(schema) {
+            return None;
+        }
+        let place = |parameter: u32| schema.call.args.iter().position(|term| *term == Term::Param(parameter));
+        if (0..).zip(&self.participants).all(|(parameter, participant)| participant.place == place(parameter)) {
+            return Some((0..self.participants.len() as u32).map(Some).collect());
+        }
+        let of_place = |place: usize| match schema.call.args.get(place) {
+            Some(Term::Param(parameter)) => Some(*parameter),
+            _ => None,
         };
-        if self.participants.len() == schema.parameters.len() && self.participants.iter().enumerate().all(same) {
-            return Some((0..self.participants.len()).map(Some).collect());
-        }
-        let mut known = vec![None; schema.parameters.len()];
-        for (index, participant) in self.participants.iter().enumerate() {
-            let Some(place) = participant.place else { continue };
-            match schema.call.args.get(place)? {
-                Term::Param(parameter) => known[*parameter as usize] = Some(index),
-                Term::Const(_) => {}
-            }
-        }
-        Some(known)
+        Some(self.participants.iter().map(|participant| of_place(participant.place?)).collect())
     }
 }
 

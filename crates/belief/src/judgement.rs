@@ -5,7 +5,8 @@ use typelift_model::{
     ActionModel, ActionSchema, GroundAtom, GroundCall, Hierarchy, LearnedModel, LiftedAtom, State, Symbol, Term, TypeId,
 };
 
-use crate::action::{ActionBelief, Cause};
+use crate::action::ActionBelief;
+use crate::cause::Cause;
 
 /// A call whose fate is asked.
 #[derive(Debug, Clone)]
@@ -118,7 +119,7 @@ impl<'m> Belief<'m> {
             }
             Cause::Missing(atom) => (Culprit::Literal, in_call(atom)),
             Cause::Present(atom) => (Culprit::Literal, format!("not {}", in_call(atom))),
-            Cause::Object(object) => (Culprit::Object, object.to_string()),
+            Cause::Object { object, .. } => (Culprit::Object, object.to_string()),
             Cause::Chance => (Culprit::Chance, String::new()),
         };
         Suspect { kind, what, share }

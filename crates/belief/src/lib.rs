@@ -13,6 +13,7 @@
 //! | file | what it holds |
 //! |---|---|
 //! | `types` | which types a place accepts |
+//! | `cause` | what can be to blame |
 //! | `deed` | what was tried in a run, by which objects |
 //! | `outcome` | what was observed of an action: what worked, and what did not |
 //! | `suspicion` | literals and pairs of types, with the odds that they matter |
@@ -23,6 +24,7 @@
 #![deny(missing_docs)]
 
 mod action;
+mod cause;
 mod deed;
 mod judgement;
 mod object;
@@ -30,10 +32,10 @@ mod outcome;
 mod suspicion;
 mod types;
 
-pub use action::{ActionBelief, Cause};
+pub use action::ActionBelief;
+pub use cause::{Cause, Pair};
 pub use deed::{Deed, Participant, Tried};
 pub use judgement::{Belief, Culprit, Judgement, Question, Suspect};
-pub use suspicion::Pair;
 
 /// How often something happens that nothing explains.
 pub(crate) const CHANCE: f64 = 0.02;

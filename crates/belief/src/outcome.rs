@@ -7,7 +7,8 @@ use typelift_model::{
     ActionSchema, Cluster, ClusterKey, Hierarchy, LiftedAtom, Observations, PreStates, Support, Symbol, Term, TypeId,
 };
 
-use crate::deed::{Deed, Tried};
+use crate::cause::Cause;
+use crate::deed::Tried;
 use crate::object::{OutOfOrder, out_of_order};
 
 /// Observations that were alike.
@@ -20,7 +21,7 @@ pub(crate) struct Outcome {
     pub(crate) count: u64,
     pub(crate) worked: bool,
     /// The objects that may have been out of order; none where objects are not known.
-    pub(crate) objects: BTreeMap<Symbol, OutOfOrder>,
+    pub(crate) objects: BTreeMap<Cause, OutOfOrder>,
 }
 
 impl Outcome {
@@ -93,26 +94,25 @@ pub(crate) fn tried(
     all: &[Tried<'_>],
 ) -> Option<Outcome> {
     let deed = tried.deed;
-    let known = deed.by_parameter(schema).filter(|_| deed.is_of(schema))?;
-    let mut map = vec![None; deed.participants.len()];
-    for (parameter, participant) in known.iter().enumerate() {
-        if let Some(participant) = participant {
-            map[*participant] = Some(parameter as u32);
-        }
-    }
+    let map = deed.parameters(schema)?;
     let types: Vec<Symbol> = deed.participants.iter().map(|participant| participant.ty.clone()).collect();
     Some(Outcome {
         types: types_of(&types, &map, schema, hierarchy),
         held: deed.held.iter().filter_map(|atom| mapped(atom, &map)).collect(),
         count: tried.count,
         worked: tried.worked,
-        objects: if tried.worked { BTreeMap::new() } else { object_odds(tried, deed, all) },
+        objects: if tried.worked { BTreeMap::new() } else { object_odds(tried, all) },
     })
 }
 
-fn object_odds(failure: &Tried<'_>, deed: &Deed, all: &[Tried<'_>]) -> BTreeMap<Symbol, OutOfOrder> {
-    let others = deed.participants.iter().filter(|participant| !failure.actors.contains(&participant.object));
-    others.map(|participant| (participant.object.clone(), out_of_order(failure, &participant.object, all))).collect()
+fn object_odds(failure: &Tried<'_>, all: &[Tried<'_>]) -> BTreeMap<Cause, OutOfOrder> {
+    let objects = failure.deed.participants.iter().map(|participant| &participant.object);
+    let others = objects.filter(|object| !failure.actors.contains(*object));
+    let suspected = others.map(|object| {
+        let cause = Cause::Object { instance: failure.deed.instance.clone(), object: object.clone() };
+        (cause, out_of_order(failure, object, all))
+    });
+    suspected.collect()
 }
 
 fn types_of(

@@ -6,6 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use typelift_model::{ActionSchema, LiftedAtom, TypeId};
 
 use crate::CHANCE;
+use crate::cause::Pair;
 use crate::outcome::Outcome;
 
 /// How often a literal holds that nothing asks for.
@@ -21,9 +22,6 @@ const FALSE_ANYWAY: f64 = 0.8;
 
 /// The odds that two types do not go together, though each goes with others.
 const PAIR: f64 = 0.06;
-
-/// Two parameters and the types there.
-pub type Pair = ((usize, TypeId), (usize, TypeId));
 
 /// The logarithmic odds that each literal is needed, of those that held in some success.
 pub(crate) fn literal_odds(schema: &ActionSchema, outcomes: &[Outcome]) -> BTreeMap<LiftedAtom, f64> {

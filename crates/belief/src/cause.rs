@@ -1,0 +1,28 @@
+//! What can be to blame for a failure.
+
+use typelift_model::{LiftedAtom, Symbol, TypeId};
+
+/// Two parameters and the types there.
+pub type Pair = ((usize, TypeId), (usize, TypeId));
+
+/// Something that can be to blame for a failure of an action.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Cause {
+    /// An object, in its instance of the world.
+    Object {
+        /// The instance, in which alone the name means it.
+        instance: Symbol,
+        /// Its name.
+        object: Symbol,
+    },
+    /// The type at a parameter.
+    Type(usize, TypeId),
+    /// Two types together, each at a parameter.
+    Together(Pair),
+    /// A literal that did not hold.
+    Missing(LiftedAtom),
+    /// A literal that held, and must not.
+    Present(LiftedAtom),
+    /// Nothing that is known.
+    Chance,
+}
