@@ -112,7 +112,7 @@ impl From<MemoryError> for Failure {
             MemoryErrorKind::NotAMemory | MemoryErrorKind::Exists => Some("Name another file."),
             MemoryErrorKind::Version { .. } => Some("Use the typelift that wrote it."),
             MemoryErrorKind::Busy => Some("Try again when it has ended."),
-
+            MemoryErrorKind::Damaged(_) => Some("`typelift memory check FILE` says what of it can be read."),
             MemoryErrorKind::Disagrees { .. } => {
                 Some("A memory is of one hierarchy and one way of reading scenes: begin another one for this model.")
             }

@@ -99,7 +99,7 @@ pub(crate) fn forget(evidence: &mut Evidence, into: &Path, sources: &[String]) -
             let error = format!("--forget {text}: {} does not say what it was learned from", into.display());
             return Err(Failure::bad_input(error).with_hint("Learn it anew from its traces."));
         }
-        let id = source_called(evidence, text)?;
+        let id = source_called(evidence, text, "--forget ")?;
         evidence.take_out(id).map_err(|error| {
             let hint = "Learn it anew from its traces, without `--compact`.";
             Failure::bad_input(format!("--forget {text}: {}: {error}", into.display())).with_hint(hint)
@@ -108,7 +108,9 @@ pub(crate) fn forget(evidence: &mut Evidence, into: &Path, sources: &[String]) -
     Ok(())
 }
 
-fn source_called(evidence: &Evidence, text: &str) -> Result<SourceId, Failure> {
+/// The source that a person means: by a file with its content, its name, or the first digits of its id. `option` stands before
+/// the text where it is not understood.
+pub(crate) fn source_called(evidence: &Evidence, text: &str, option: &str) -> Result<SourceId, Failure> {
     let path = Path::new(text);
     if path.is_file() {
         let id = source_of_file(path)?;
@@ -128,9 +130,9 @@ fn source_called(evidence: &Evidence, text: &str) -> Result<SourceId, Failure> {
     };
     match found.as_slice() {
         [(id, _)] => Ok(**id),
-        [] => Err(Failure::bad_input(format!("--forget {text}: the model was not learned from it"))
+        [] => Err(Failure::bad_input(format!("{option}{text}: nothing was learned from it"))
             .with_hint(format!("It was learned from {}.", listed(&mut known.clone())))),
-        several => Err(Failure::bad_input(format!("--forget {text}: this may be any of several"))
+        several => Err(Failure::bad_input(format!("{option}{text}: this may be any of several"))
             .with_hint(format!("Say which by its id: {}.", listed(&mut several.iter().copied())))),
     }
 }

@@ -22,6 +22,7 @@ mod learn_changes;
 mod learn_into;
 mod learn_report;
 mod limits;
+mod memory;
 mod narrate;
 mod no_plan;
 mod overwriting;
@@ -77,6 +78,7 @@ enum Command {
     Plan(plan::Plan),
     Export(export::Export),
     Run(run::Run),
+    Memory(memory::MemoryCommand),
     CheckEnv(check_env::CheckEnv),
     Validate(validate::Validate),
     Pddl(pddl::Pddl),
@@ -106,6 +108,7 @@ fn main() -> ExitCode {
         Command::Plan(plan) => plan.run(clock, quiet),
         Command::Export(export) => export.run(clock, quiet),
         Command::Run(run) => run.run(clock, quiet),
+        Command::Memory(memory) => memory.run(quiet),
         Command::CheckEnv(check_env) => check_env.run(quiet),
         Command::Validate(validate) => validate.run(clock, quiet),
         Command::Pddl(pddl) => pddl.run(quiet),

@@ -48,48 +48,39 @@ impl Show {
     pub(crate) fn run(&self) -> Result<Exit, Failure> {
         let input = read_model_input(&self.model, None)?;
         let domain = input.domain_name(&self.model);
-        let LearnedModel { model, evidence, refused, .. } = match input {
+        let learned = match input {
             ModelInput::Learned(learned) => *learned,
             ModelInput::Given(domain) => domain.model.into(),
         };
+        let LearnedModel { model, evidence, .. } = &learned;
         let mut out = anstream::stdout().lock();
         if self.pddl {
             let options = ExportOptions { domain, problem: Symbol::default(), level: Level::Adl };
-            write!(out, "{}", export(&model, None, &options)?.domain)?;
+            write!(out, "{}", export(model, None, &options)?.domain)?;
             return Ok(Exit::Success);
         }
         if self.predicates {
-            return list_predicates(&mut out, &model, self.json);
+            return list_predicates(&mut out, model, self.json);
         }
         if self.types {
             return list_types(&mut out, &model.hierarchy, self.json);
         }
         if self.sources {
-            return self.list_sources(&mut out, &evidence);
+            return self.list_sources(&mut out, evidence);
         }
-        let actions: Vec<Description> = match &self.action {
-            None => model.actions.iter().map(|action| describe_action(action, &model, None)).collect(),
+        let told = match &self.action {
+            None => all_told(model),
             Some(name) => {
-                let action = model.action(name).ok_or_else(|| no_action(&model, name))?;
-                vec![describe_action(action, &model, Some(&evidence))]
+                let action = model.action(name).ok_or_else(|| no_action(model, name))?;
+                vec![describe_action(action, model, Some(evidence))]
             }
         };
-        let axioms = model.axioms.iter().filter(|_| self.action.is_none()).map(|axiom| describe_axiom(axiom, &model));
-        let all: Vec<Description> = actions.into_iter().chain(axioms).collect();
         if self.json {
-            writeln!(out, "{}", serde_json::to_string_pretty(&all).unwrap_or_default())?;
-            return Ok(Exit::Success);
-        }
-        if self.action.is_none() {
-            head(&mut out, &model, &evidence)?;
-            if let Some(line) = refused_merges(refused) {
-                writeln!(out, "{line}\n")?;
-            }
-        }
-        let texts: Vec<String> = all.iter().map(described).collect();
-        write!(out, "{}", texts.join("\n"))?;
-        if self.action.is_none() && !texts.is_empty() {
-            writeln!(out)?;
+            writeln!(out, "{}", serde_json::to_string_pretty(&told).unwrap_or_default())?;
+        } else if self.action.is_some() {
+            write!(out, "{}", told.iter().map(described).collect::<Vec<_>>().join("\n"))?;
+        } else {
+            overview(&mut out, &learned)?;
         }
         Ok(Exit::Success)
     }
@@ -126,6 +117,27 @@ fn no_action(model: &ActionModel, name: &str) -> Failure {
         }
     };
     Failure::bad_input(format!("the model has no action `{name}`")).with_hint(hint)
+}
+
+/// Every action and axiom.
+fn all_told(model: &ActionModel) -> Vec<Description> {
+    let actions = model.actions.iter().map(|action| describe_action(action, model, None));
+    actions.chain(model.axioms.iter().map(|axiom| describe_axiom(axiom, model))).collect()
+}
+
+/// All that a model holds, in short.
+pub(crate) fn overview(out: &mut impl Write, learned: &LearnedModel) -> Result<(), Failure> {
+    let LearnedModel { model, evidence, refused, .. } = learned;
+    head(out, model, evidence)?;
+    if let Some(line) = refused_merges(*refused) {
+        writeln!(out, "{line}\n")?;
+    }
+    let texts: Vec<String> = all_told(model).iter().map(described).collect();
+    write!(out, "{}", texts.join("\n"))?;
+    if !texts.is_empty() {
+        writeln!(out)?;
+    }
+    Ok(())
 }
 
 /// What the model holds, in numbers.

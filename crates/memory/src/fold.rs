@@ -8,13 +8,16 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use rusqlite::Connection;
+use rusqlite::{Connection, OptionalExtension};
 use typelift_learn::observe_trace;
 use typelift_model::{Evidence, LearnedModel, SourceId};
 use typelift_world::{FileError, Parser, Trace, TraceReader, trace_from};
 
 use crate::error::MemoryErrorKind;
 use crate::log::{self, Kind, Wanted, list, trace_name, trace_text};
+
+/// The program whose folds are trusted: another one may learn otherwise from the same log.
+pub(crate) const PROGRAM: &str = env!("CARGO_PKG_VERSION");
 
 /// The sum over the log up to an entry, of episodes that had ended by then.
 #[derive(Debug, Clone, Default)]
@@ -149,4 +152,14 @@ fn episode_evidence(
         let (id, name) = (trace.source_id(hierarchy), trace_name(&trace));
         (id, [(id, name, observe_trace(&trace, hierarchy))].into_iter().collect())
     }))
+}
+
+/// The sum that the file keeps, with what was learned from it, if this program made it.
+pub(crate) fn kept_fold(connection: &Connection) -> Result<Option<(Fold, LearnedModel)>, MemoryErrorKind> {
+    let query = "SELECT up_to, model FROM fold WHERE program = ?1";
+    let kept = connection.query_row(query, [PROGRAM], |row| Ok((row.get(0)?, row.get::<_, String>(1)?)));
+    let Some((up_to, model)) = kept.optional()? else { return Ok(None) };
+    // What can be summed up again does no harm.
+    let Ok(learned) = LearnedModel::from_json(&model) else { return Ok(None) };
+    Ok(Some((Fold { up_to, evidence: learned.evidence.clone() }, learned)))
 }

@@ -7,6 +7,7 @@
 //! Times are kept for people; no result depends on them.
 #![deny(missing_docs)]
 
+mod checked;
 mod episode;
 mod error;
 mod fold;
@@ -17,6 +18,7 @@ mod memory;
 mod scene_change;
 mod version;
 
+pub use checked::{Checked, check};
 pub use episode::EpisodeLog;
 pub use error::{MemoryError, MemoryErrorKind};
 pub use fold::Unread;

@@ -130,6 +130,8 @@ pub(crate) enum Wanted {
     Of(Kind),
     /// Later ones of a kind.
     After(Kind, i64),
+    /// The one of this number, if there is one.
+    Number(i64),
     /// The beginning of an episode, its steps and its end.
     Episode(i64),
 }
@@ -144,6 +146,7 @@ pub(crate) fn entries(
         Wanted::All => ("?1 = ?2", [&0, &0]),
         Wanted::Of(kind) => ("kind = ?1 AND ?2 = 0", [&kind.word(), &0]),
         Wanted::After(kind, number) => ("kind = ?1 AND number > ?2", [&kind.word(), number]),
+        Wanted::Number(number) => ("number = ?1 AND ?2 = 0", [number, &0]),
         Wanted::Episode(number) => ("number = ?1 OR episode = ?2", [number, number]),
     };
     let query = format!("SELECT number, written, kind, episode, content FROM log WHERE {condition} ORDER BY number");

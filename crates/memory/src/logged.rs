@@ -62,7 +62,7 @@ pub(crate) fn logged(connection: &Connection) -> Result<Vec<Logged>, MemoryError
     list(connection, Wanted::All)?.into_iter().map(told).collect()
 }
 
-fn told(entry: Entry) -> Result<Logged, MemoryErrorKind> {
+pub(crate) fn told(entry: Entry) -> Result<Logged, MemoryErrorKind> {
     let what = match entry.kind {
         Kind::Evidence => {
             let log::Evidence { name, sources, .. } = entry.content()?;

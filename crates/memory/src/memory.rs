@@ -2,21 +2,18 @@
 
 use std::path::{Path, PathBuf};
 
-use rusqlite::{Connection, OptionalExtension, TransactionBehavior, params};
+use rusqlite::{Connection, TransactionBehavior, params};
 use serde_json::value::RawValue;
 use typelift_learn::learn_evidence;
-use typelift_model::{ActionModel, Evidence, LearnedModel, ParseConfig, SourceId};
+use typelift_model::{ActionModel, Evidence, LearnedModel, ParseConfig, SourceId, Symbol};
 use typelift_world::TraceHeader;
 
 use crate::episode::EpisodeLog;
 use crate::error::{MemoryError, MemoryErrorKind};
-use crate::fold::{Fold, Sum, Unread, episode_trace, taken_back, under_way};
+use crate::fold::{Fold, PROGRAM, Sum, Unread, episode_trace, kept_fold, taken_back, under_way};
 use crate::format::{self, Access};
-use crate::log::{self, Kind, Wanted, append, list};
+use crate::log::{self, Kind, Wanted, append, list, trace_text};
 use crate::logged::{Logged, logged};
-
-/// The program whose folds are trusted: another one may learn otherwise from the same log.
-const PROGRAM: &str = env!("CARGO_PKG_VERSION");
 
 /// The sum is written down once the log has grown by one part in so many: all that is written so, over the years, is in
 /// proportion to the log.
@@ -228,6 +225,26 @@ impl Memory {
         self.learn()
     }
 
+    /// The episodes that were not taken back, as the traces that they are, each with its name and its text, in order.
+    ///
+    /// # Errors
+    /// [`MemoryError`] if one cannot be read.
+    pub fn traces(&self) -> Result<Vec<(Symbol, String)>, MemoryError> {
+        self.list_traces().map_err(|kind| kind.of(&self.file))
+    }
+
+    fn list_traces(&self) -> Result<Vec<(Symbol, String)>, MemoryErrorKind> {
+        let taken_back = taken_back(&self.connection)?;
+        let mut traces = Vec::new();
+        for entry in list(&self.connection, Wanted::Of(Kind::Begun))? {
+            if taken_back.iter().all(|(number, _)| *number != entry.number) {
+                let header = TraceHeader::from_line(entry.content::<log::Begun>()?.header.get())?;
+                traces.push((Symbol::from(header.task), trace_text(&self.connection, entry.number)?));
+            }
+        }
+        Ok(traces)
+    }
+
     /// All entries, in the order in which they were written. In time and memory of the log.
     ///
     /// # Errors
@@ -265,14 +282,4 @@ fn learned_from(evidence: Evidence, basis: &LearnedModel) -> Result<LearnedModel
     learned.model.constants.clone_from(&model.constants);
     learned.declare(declared_predicates.clone());
     Ok(learned)
-}
-
-/// The sum that the file keeps, with what was learned from it, if this program made it.
-fn kept_fold(connection: &Connection) -> Result<Option<(Fold, LearnedModel)>, MemoryErrorKind> {
-    let query = "SELECT up_to, model FROM fold WHERE program = ?1";
-    let kept = connection.query_row(query, [PROGRAM], |row| Ok((row.get(0)?, row.get::<_, String>(1)?)));
-    let Some((up_to, model)) = kept.optional()? else { return Ok(None) };
-    // What can be summed up again does no harm.
-    let Ok(learned) = LearnedModel::from_json(&model) else { return Ok(None) };
-    Ok(Some((Fold { up_to, evidence: learned.evidence.clone() }, learned)))
 }

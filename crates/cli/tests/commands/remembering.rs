@@ -100,3 +100,97 @@ fn what_cannot_be_a_memory_is_refused() {
     transcript.add("no file", &folder.refuses(36, "run --kitchen --memory m"));
     insta::assert_snapshot!("refused-memories", transcript.0);
 }
+
+#[test]
+fn what_a_memory_knows_is_told_and_taken_back() {
+    let folder = Folder::kitchen();
+    let fault = "K/faults/broken_cutboard_lettuce.json";
+    folder.run("run kitchen.json K/tasks/T1.1.json --kitchen --memory m -q").succeeds();
+    folder.run("memory export m -o before.json -q").succeeds();
+    folder.run(&format!("run {fault} --kitchen --imagine --memory m --record R -q")).succeeds();
+    insta::assert_snapshot!("memory-log", folder.run("memory log m"));
+    let shown = folder.run("memory show m");
+    assert!(shown.out.starts_with("8 demonstrations, 2 episodes, 14 steps\n"), "{shown}");
+    let checked = folder.run("memory check m");
+    assert_eq!((checked.code, checked.out.as_str()), (0, "19 entries can be read\n"), "{checked}");
+    let exported = folder.run("memory export m --traces T -o after.json");
+    exported.succeeds();
+    assert_eq!(exported.err, "wrote 2 traces to T\nwrote after.json\n");
+    let name = "broken_cutboard_lettuce.jsonl";
+    assert_eq!(folder.read(&format!("T/{name}")), folder.read(&format!("R/{name}")));
+    folder.run("learn --into kitchen.json T -o learned.json -q").succeeds();
+    assert_eq!(folder.read("after.json"), folder.read("learned.json"), "as if all had been learned at once");
+    let forgotten = folder.run(&format!("memory forget m {name}"));
+    forgotten.succeeds();
+    assert!(forgotten.err.starts_with(&format!("took back {name} (")), "{forgotten}");
+    folder.run("memory export m -o forgotten.json -q").succeeds();
+    assert_eq!(folder.read("forgotten.json"), folder.read("before.json"), "as if it had never been");
+    let again = folder.refuses(31, &format!("memory forget m {name}"));
+    assert!(again.err.contains(&format!("{name}: nothing was learned from it")), "{again}");
+    folder.refuses(31, "memory export m -o m");
+}
+
+#[test]
+fn a_damaged_memory_is_told_of() {
+    let folder = Folder::kitchen();
+    folder.run("run kitchen.json K/tasks/T1.1.json K/tasks/T1.2.json --kitchen --memory m -q").succeeds();
+    let mut bytes = std::fs::read(folder.path("m")).expect("a memory");
+    let step = b"\"verdict\":\"as-expected\"";
+    let at = bytes.windows(step.len()).rposition(|window| window == step).expect("a step");
+    bytes[at + step.len() - 3] = b'X';
+    folder.write("m", bytes);
+    let checked = folder.run("memory check m");
+    assert_eq!(checked.code, 12, "{checked}");
+    insta::assert_snapshot!("memory-damaged", checked);
+}
+
+/// Whatever moment the program is killed at, what it had told of is remembered, and the next run goes on from there.
+/// `TYPELIFT_KILLS` says how often to try.
+#[cfg(unix)]
+#[test]
+fn a_killed_run_remembers_every_step_that_it_told_of() {
+    use std::process::Stdio;
+    use std::thread::sleep;
+    use std::time::Instant;
+
+    use typelift_memory::{Access, Memory, MemoryErrorKind, What};
+
+    let folder = Folder::kitchen();
+    let kills: u32 = std::env::var("TYPELIFT_KILLS").map_or(6, |number| number.parse().expect("a number"));
+    let start = |memory: &str, number: u32| {
+        let tasks = (1..=6).map(|task| format!("K/tasks/T{task}.1.json")).collect::<Vec<_>>().join(" ");
+        let command = format!("run kitchen.json {tasks} --kitchen --imagine -q --memory {memory} --events E{number}");
+        let mut program = crate::common::program(&command);
+        program.current_dir(folder.path("")).stdout(Stdio::null()).stderr(Stdio::null());
+        program.spawn().expect("the program starts")
+    };
+    let steps = |memory: &str| match Memory::open(&folder.path(memory), Access::Read) {
+        Err(error) if error.kind == MemoryErrorKind::Missing => 0,
+        opened => {
+            let memory = opened.unwrap_or_else(|error| panic!("{error}"));
+            assert_eq!(memory.unread(), []);
+            let entries = memory.entries().unwrap_or_else(|error| panic!("{error}"));
+            entries.iter().filter(|entry| matches!(entry.what, What::Stepped(_))).count()
+        }
+    };
+    let started = Instant::now();
+    assert!(start("whole", 0).wait().expect("it ends").success());
+    let whole = started.elapsed();
+    assert!(steps("whole") > 30);
+    for number in 1..=kills {
+        // A memory of its own, or one that was left behind by all the kills before.
+        let memory = if number % 2 == 0 { "m".to_owned() } else { format!("m{number}") };
+        let before = steps(&memory);
+        let mut running = start(&memory, number);
+        sleep(whole * number / (kills + 1));
+        running.kill().expect("killed");
+        running.wait().expect("it ends");
+        let events = std::fs::read_to_string(folder.path(&format!("E{number}"))).unwrap_or_default();
+        let told =
+            events.split_inclusive('\n').filter(|line| line.contains(r#""event":"stepped""#) && line.ends_with('\n'));
+        let (told, remembered) = (told.count(), steps(&memory) - before);
+        assert!(remembered == told || remembered == told + 1, "kill {number}: told of {told}, remembered {remembered}");
+        folder.run(&format!("run kitchen.json K/tasks/T1.1.json --kitchen -q --memory {memory}")).succeeds();
+        folder.run(&format!("memory check {memory}")).succeeds();
+    }
+}

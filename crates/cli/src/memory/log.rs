@@ -1,0 +1,45 @@
+//! `typelift memory log`: each entry in words.
+
+use std::collections::BTreeMap;
+use std::io::Write;
+
+use typelift::words::count;
+use typelift::world::{TraceAction, Verdict};
+use typelift_memory::{Logged, Memory, What};
+
+use crate::exit::Exit;
+use crate::failure::{Failure, printable_lines};
+
+pub(crate) fn list(memory: &Memory, times: bool) -> Result<Exit, Failure> {
+    let mut out = anstream::stdout().lock();
+    let mut tasks: BTreeMap<i64, String> = BTreeMap::new();
+    for Logged { number, written, episode, what } in memory.entries()? {
+        if let What::Begun { header, .. } = &what {
+            tasks.insert(number, header.task.clone());
+        }
+        let task = episode.and_then(|begun| tasks.get(&begun)).map_or("", String::as_str);
+        let time = if times { format!("{written}  ") } else { String::new() };
+        writeln!(out, "{number:>6}  {time}{}", printable_lines(&said(what, task)))?;
+    }
+    Ok(Exit::Success)
+}
+
+/// What an entry of an episode of a task says.
+fn said(what: What, task: &str) -> String {
+    match what {
+        What::Evidence { model, sources } => format!("{} of {model}", count(sources as u64, "demonstration")),
+        What::Begun { environment, instance, header } => {
+            let place = if instance.as_str().is_empty() { environment } else { instance.to_string() };
+            format!("{} begins in {place}", header.task)
+        }
+        What::Stepped(action) => step(&action),
+        What::Ended { how, source } => format!("{task} ends: {} ({})", how.replace('_', " "), source.short()),
+        What::Forgotten { source, .. } => format!("{} is taken back", source.short()),
+    }
+}
+
+fn step(TraceAction { call, reason, verdict, .. }: &TraceAction) -> String {
+    let verdict = verdict.map_or("", Verdict::word).replace('-', " ");
+    let reason = reason.as_ref().map(|reason| format!(" ({reason})")).unwrap_or_default();
+    format!("  {call}: {verdict}{reason}")
+}

@@ -1,0 +1,152 @@
+//! `typelift memory`: what a memory knows, and what of it is taken back.
+
+mod export;
+mod log;
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use typelift::model::SourceId;
+use typelift::words::count;
+use typelift_memory::{Access, Memory, What, check};
+
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::learn_into::source_called;
+use crate::remembered::warn_unread;
+use crate::show::overview;
+use crate::style::BAD;
+use export::export;
+use log::list;
+
+/// Say what a memory knows, and take things back
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Example:\n  typelift memory show robot.memory\n\n`typelift memory COMMAND --help` tells more.")]
+pub(crate) struct MemoryCommand {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, clap::Subcommand)]
+enum Command {
+    /// Show what was learned, as `show` does, and from how much
+    #[command(after_help = "Example:\n  typelift memory show robot.memory")]
+    Show {
+        /// The memory
+        file: PathBuf,
+    },
+    /// List all entries, one a line
+    #[command(after_help = "Examples:
+  typelift memory log robot.memory
+  typelift memory log robot.memory --times")]
+    Log {
+        /// The memory
+        file: PathBuf,
+        /// Say when each was written, in UTC
+        #[arg(long)]
+        times: bool,
+    },
+    /// Write the episodes as traces, and what was learned as a model
+    #[command(after_help = "Examples:
+  typelift memory export robot.memory --traces T
+  typelift memory export robot.memory -o model.json")]
+    Export {
+        /// The memory
+        file: PathBuf,
+        /// Write each episode as a trace to this folder
+        #[arg(long, value_name = "FOLDER", required_unless_present = "output")]
+        traces: Option<PathBuf>,
+        /// Write the model to this file
+        #[arg(long, short, value_name = "MODEL")]
+        output: Option<PathBuf>,
+    },
+    /// Look whether everything is as it was written
+    #[command(after_help = "Example:
+  typelift memory check robot.memory
+
+Exit codes: 0 all is well, 12 something is not, 31 nothing can be read.")]
+    Check {
+        /// The memory
+        file: PathBuf,
+    },
+    /// Take demonstrations or episodes back: the model is as if they had never been
+    #[command(after_help = "Examples:
+  typelift memory forget robot.memory 3f9a01c2
+  typelift memory forget robot.memory cut-a-lettuce.jsonl
+
+`typelift memory log` lists the ids. The entries stay in the file.")]
+    Forget {
+        /// The memory
+        file: PathBuf,
+        /// Each by a file with its content, its name, or the first digits of its id
+        #[arg(required = true, value_name = "SOURCE")]
+        sources: Vec<String>,
+    },
+}
+
+impl MemoryCommand {
+    pub(crate) fn run(&self, quiet: bool) -> Result<Exit, Failure> {
+        match &self.command {
+            Command::Show { file } => show(&read(file, quiet)?),
+            Command::Log { file, times } => list(&read(file, quiet)?, *times),
+            Command::Export { file, traces, output } => {
+                export(&read(file, quiet)?, traces.as_deref(), output.as_deref(), quiet)
+            }
+            Command::Check { file } => report(file),
+            Command::Forget { file, sources } => forget(file, sources, quiet),
+        }
+    }
+}
+
+fn read(file: &Path, quiet: bool) -> Result<Memory, Failure> {
+    let memory = Memory::open(file, Access::Read)?;
+    if !quiet {
+        warn_unread(&memory);
+    }
+    Ok(memory)
+}
+
+fn show(memory: &Memory) -> Result<Exit, Failure> {
+    let (mut demonstrations, mut episodes, mut steps, mut taken_back) = (0, 0, 0, 0);
+    for entry in memory.entries()? {
+        match entry.what {
+            What::Evidence { sources, .. } => demonstrations += sources as u64,
+            What::Begun { .. } => episodes += 1,
+            What::Stepped(_) => steps += 1,
+            What::Forgotten { .. } => taken_back += 1,
+            What::Ended { .. } => {}
+        }
+    }
+    let mut out = anstream::stdout().lock();
+    let taken_back = if taken_back == 0 { String::new() } else { format!("; {taken_back} taken back") };
+    let seen = [count(demonstrations, "demonstration"), count(episodes, "episode"), count(steps, "step")];
+    writeln!(out, "{}{taken_back}", seen.join(", "))?;
+    overview(&mut out, memory.learned())?;
+    Ok(Exit::Success)
+}
+
+fn report(file: &Path) -> Result<Exit, Failure> {
+    let found = check(file)?;
+    let mut out = anstream::stdout().lock();
+    for problem in &found.problems {
+        writeln!(out, "{BAD}wrong{BAD:#}: {problem}")?;
+    }
+    let entries = if found.entries == 1 { "entry" } else { "entries" };
+    writeln!(out, "{} {entries} can be read", found.entries)?;
+    Ok(if found.problems.is_empty() { Exit::Success } else { Exit::NotAchieved })
+}
+
+fn forget(file: &Path, sources: &[String], quiet: bool) -> Result<Exit, Failure> {
+    let mut memory = Memory::open(file, Access::Write)?;
+    let evidence = &memory.learned().evidence;
+    let called = |text: &String| source_called(evidence, text, "");
+    let ids = sources.iter().map(called).collect::<Result<Vec<SourceId>, _>>()?;
+    for id in ids {
+        let name = memory.learned().evidence.sources().get(&id).map(|source| source.name.clone());
+        memory.forget(id)?;
+        if !quiet {
+            anstream::eprintln!("took back {} ({})", name.unwrap_or_default(), id.short());
+        }
+    }
+    Ok(Exit::Success)
+}
