@@ -27,7 +27,7 @@ taken as `show --pddl` writes it, and `export --not-strict`.
 
 Exit codes: 0 the same, 12 different, 31 bad input, 36 wrong usage.")]
 pub(crate) struct Diff {
-    /// A model, or a PDDL domain
+    /// A model, a memory, or a PDDL domain
     first: PathBuf,
     /// Another one
     second: PathBuf,
@@ -40,8 +40,9 @@ pub(crate) struct Diff {
 }
 
 impl Diff {
-    pub(crate) fn run(&self) -> Result<Exit, Failure> {
-        let (first, second) = (read_model_input(&self.first, None)?, read_model_input(&self.second, None)?);
+    pub(crate) fn run(&self, quiet: bool) -> Result<Exit, Failure> {
+        let (first, second) =
+            (read_model_input(&self.first, None, quiet)?, read_model_input(&self.second, None, quiet)?);
         let beside_pddl = first.is_given() || second.is_given();
         let mut found = if beside_pddl && !self.not_strict {
             difference(&strict(first.model()), &strict(second.model()), true)

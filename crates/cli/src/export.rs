@@ -164,7 +164,7 @@ impl Export {
 
     /// What is to be written, and how many actions of it are imagined.
     fn export(&self, clock: Clock, quiet: bool) -> Result<(Exported, usize), Failure> {
-        let input = self.model.read()?;
+        let input = self.model.read(quiet)?;
         let name = || input.domain_name(&self.model.model);
         let domain = self.name.clone().unwrap_or_else(name);
         let (model, task) = match &self.task {

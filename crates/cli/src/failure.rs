@@ -108,7 +108,9 @@ impl From<ModelFileError> for Failure {
 impl From<MemoryError> for Failure {
     fn from(error: MemoryError) -> Self {
         let hint = match &error.kind {
-            MemoryErrorKind::Missing => Some("`typelift run MODEL TASK --memory FILE` makes one."),
+            MemoryErrorKind::Missing => {
+                Some("`typelift run MODEL TASK --memory FILE` makes one, and `typelift learn` with --memory.")
+            }
             MemoryErrorKind::NotAMemory | MemoryErrorKind::Exists => Some("Name another file."),
             MemoryErrorKind::Version { .. } => Some("Use the typelift that wrote it."),
             MemoryErrorKind::Busy => Some("Try again when it has ended."),

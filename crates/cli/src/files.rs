@@ -12,8 +12,10 @@ use typelift::world::{
     DomainFile, FileError, ParseError, ParseErrorKind, Parser, TaskError, TaskFile, is_pddl, model_problem_from_text,
     read_text, read_types,
 };
+use typelift_memory::looks_like_memory;
 
 use crate::failure::{Failure, NOT_AS_WRITTEN, about_goal};
+use crate::remembered::read_remembered;
 use crate::style::{HINT, WARNING};
 
 /// Warnings of files that are said.
@@ -26,8 +28,12 @@ pub(crate) enum ModelInput {
     Given(Box<DomainFile>),
 }
 
-/// Reads a model file or a PDDL domain, and adds the types of another file to a model.
-pub(crate) fn read_model_input(path: &Path, types: Option<&PathBuf>) -> Result<ModelInput, Failure> {
+/// Reads a model file, a memory or a PDDL domain, and adds the types of another file to a model; warns unless it is to be
+/// `quiet`.
+pub(crate) fn read_model_input(path: &Path, types: Option<&PathBuf>, quiet: bool) -> Result<ModelInput, Failure> {
+    if looks_like_memory(path) {
+        return read_remembered(path, types, quiet);
+    }
     model_input_from_text(path, read_text(path)?, types)
 }
 

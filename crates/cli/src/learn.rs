@@ -5,12 +5,13 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use typelift::learn::{self, Options, evidence_of, learn_evidence};
-use typelift::model::{LearnedModel, SourceId, Symbol, Unexplained, did_you_mean, name_with_arity};
-use typelift::words::{TypeNote, missing_actor, unbounded_parameters};
+use typelift::model::{Evidence, LearnedModel, SourceId, Symbol, Unexplained, did_you_mean, name_with_arity};
+use typelift::words::{TypeNote, count, missing_actor, unbounded_parameters};
 use typelift::world::{
     Dataset, FileError, LeftOut, ObjectTypes, Repeated, TrajectoryContext, Unlisted, demonstrations_at, read_dataset,
     write_file,
 };
+use typelift_memory::{Access, Memory, MemoryError, MemoryErrorKind};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -33,6 +34,7 @@ use crate::watchdog::within_shown;
   typelift learn *.trajectory --types domain.pddl --problems P -o model.json
   typelift learn --into model.json more/*.jsonl
   typelift learn --into model.json --forget wrong.jsonl
+  typelift learn more/*.jsonl --memory robot.memory
 
 A trace is one demonstration: JSON Lines (trace/1), or a PDDL trajectory. Of a
 folder, every file that ends in .jsonl, .trajectory or _traj is read.")]
@@ -44,13 +46,16 @@ pub(crate) struct Learn {
     #[arg(long, value_name = "FILE")]
     types: Option<PathBuf>,
     /// Add to this model, as if all had been learned at once; its types and what it ignores hold
-    #[arg(long, value_name = "MODEL")]
+    #[arg(long, value_name = "MODEL", conflicts_with = "memory")]
     into: Option<PathBuf>,
+    /// Add to this memory, in the same way; it is made if it is not there
+    #[arg(long, value_name = "FILE", requires = "traces")]
+    memory: Option<PathBuf>,
     /// Take a trace out of the model again: a file, its name, or the first digits of its id
     #[arg(long, value_name = "SOURCE", requires = "into")]
     forget: Vec<String>,
     /// Keep totals and the names of the traces only: nothing can be taken out any more
-    #[arg(long)]
+    #[arg(long, conflicts_with = "memory")]
     compact: bool,
     /// Where trajectories find the types of their objects: a folder of PDDL problems
     #[arg(long, value_name = "DIR", conflicts_with = "objects")]
@@ -80,7 +85,7 @@ pub(crate) struct Learn {
     #[arg(long)]
     json: bool,
     /// Write the model to this file [default: that of --into]
-    #[arg(long, short, value_name = "MODEL", required_unless_present_any = ["dry_run", "into"])]
+    #[arg(long, short, value_name = "MODEL", required_unless_present_any = ["dry_run", "into", "memory"])]
     output: Option<PathBuf>,
     #[command(flatten)]
     limits: Limits,
@@ -89,6 +94,8 @@ pub(crate) struct Learn {
 /// What was read, and what was learned from it.
 struct Learned {
     dataset: Dataset,
+    /// What its traces show.
+    shown: Evidence,
     /// What is probably not meant in the types.
     type_warnings: Vec<FileError>,
     /// The traces that the model had already.
@@ -103,18 +110,25 @@ struct Learned {
 
 impl Learn {
     pub(crate) fn run(&self, clock: Clock, quiet: bool) -> Result<Exit, Failure> {
-        if self.types.is_none() && self.into.is_none() {
-            let hint = "Or say which model to add to, with --into MODEL: then its types hold.";
+        let is_begun = self.into.is_some() || self.memory.as_ref().is_some_and(|memory| memory.exists());
+        if self.types.is_none() && !is_begun {
+            let hint = match &self.memory {
+                Some(memory) => format!("There is no {} yet; once it is there, its types hold.", memory.display()),
+                None => "Or say which model to add to, with --into MODEL: then its types hold.".to_owned(),
+            };
             return Err(Failure::new(Exit::Usage, "no types: say --types FILE").with_hint(hint));
         }
         let output = self.output.as_ref().or(self.into.as_ref()).filter(|_| !self.dry_run);
-        keep_inputs(output.map(|path| Output::File(path)), self.inputs())?;
+        let memory = self.memory.as_ref().filter(|_| !self.dry_run);
+        keep_inputs(output.into_iter().chain(memory).map(|path| Output::File(path)), self.inputs())?;
+        keep_inputs(output.map(|path| Output::File(path)), &self.memory)?;
         let waiting = Waiting::new(quiet || self.json);
         let learn = || waiting.during("learning", || self.learn());
         let learned = within_shown(clock, self.limits, &waiting, learn)?;
         let Learned { model, report, notes, .. } = &learned;
         // First, so that the model is written even if standard output is closed.
         let text = model.to_json()?;
+        let added = memory.map(|memory| self.remember(memory, &learned)).transpose()?;
         let stays = self.output.is_none() && output.is_some_and(|path| is_written(path, &text));
         if let Some(path) = output.filter(|_| !stays) {
             write_file(path, text.as_bytes())?;
@@ -134,6 +148,9 @@ impl Learn {
                 Some(path) => anstream::eprintln!("wrote {}", path.display()),
                 None => {}
             }
+            if let (Some(added), Some(memory)) = (added, memory) {
+                anstream::eprintln!("added {} to {}", count(added as u64, "demonstration"), memory.display());
+            }
             self.warn(&learned);
         }
         Ok(Exit::Success)
@@ -146,6 +163,27 @@ impl Learn {
         let problems = self.problems.iter().flat_map(|folder| ObjectTypes::problems_at(folder).unwrap_or_default());
         let forgotten = self.forget.iter().map(PathBuf::from);
         traces.chain(problems).chain(forgotten).chain(self.types.clone()).chain(self.objects.clone()).collect()
+    }
+
+    /// The model that is added to.
+    fn added_to(&self) -> Result<Option<LearnedModel>, Failure> {
+        match (&self.into, &self.memory) {
+            (Some(path), _) => learn_into::model_at(path).map(Some),
+            (None, Some(memory)) => match Memory::open(memory, Access::Read) {
+                Err(MemoryError { kind: MemoryErrorKind::Missing, .. }) => Ok(None),
+                opened => Ok(Some(opened?.learned().clone())),
+            },
+            (None, None) => Ok(None),
+        }
+    }
+
+    /// Adds what was shown to a memory: how many demonstrations it did not have.
+    fn remember(&self, file: &Path, learned: &Learned) -> Result<usize, Failure> {
+        let mut memory = Memory::open_or_create(file, &learned.model)?;
+        let shown = LearnedModel { evidence: learned.shown.clone(), ..learned.model.clone() };
+        let named = self.traces.first().map(|path| path.display().to_string()).unwrap_or_default();
+        let more = if self.traces.len() > 1 { format!(" and {} more", self.traces.len() - 1) } else { String::new() };
+        Ok(memory.add_demonstrations(&shown, &format!("{named}{more}"))?)
     }
 
     /// Reads the traces, and learns from them.
@@ -161,7 +199,7 @@ impl Learn {
             (_, true) => Unlisted::Unknown,
             _ => Unlisted::AsListed,
         };
-        let (begun, type_warnings) = beginning(self.into.as_ref(), self.types.as_ref(), ignore)?;
+        let (begun, type_warnings) = beginning(self.added_to()?, self.types.as_ref(), ignore)?;
         let LearnedModel { model, domain, declared_predicates, parse, options, mut evidence, .. } = begun;
         types.add_constants(model.constants.iter().map(|(name, ty)| (name, model.hierarchy.name(*ty))));
         let context = TrajectoryContext { types, unlisted };
@@ -174,7 +212,8 @@ impl Learn {
         if let Some(into) = &self.into {
             forget(&mut evidence, into, &self.forget)?;
         }
-        let known = add(&mut evidence, self.into.as_ref(), &evidence_of(&dataset))?;
+        let shown = evidence_of(&dataset);
+        let known = add(&mut evidence, self.into.as_ref().or(self.memory.as_ref()), &shown)?;
         if self.compact {
             evidence.compact();
         }
@@ -194,7 +233,7 @@ impl Learn {
         let missing_actor = report.no_actor.as_ref().and_then(|why| missing_actor(why, actor_before.as_ref()));
         let notes = missing_actor.into_iter().chain(unbounded_parameters(&model.model)).collect();
         let changes = Changes::of(&dataset, &model.parse.by_arity);
-        Ok(Learned { dataset, type_warnings, known, model, report, notes, changes })
+        Ok(Learned { dataset, shown, type_warnings, known, model, report, notes, changes })
     }
 
     /// `--dry-run`: what would be learned from.
@@ -242,9 +281,10 @@ impl Learn {
                 "{WARNING}warning{WARNING:#}: {file} is the same trace as {first} ({source}); it counts once"
             );
         }
+        let place = if self.memory.is_some() { "memory" } else { "model" };
         for id in known {
             let (name, id) = (model.evidence.sources().get(id).map_or("", |source| source.name.as_str()), id.short());
-            anstream::eprintln!("{WARNING}warning{WARNING:#}: {name} ({id}) is in the model already; it counts once");
+            anstream::eprintln!("{WARNING}warning{WARNING:#}: {name} ({id}) is in the {place} already; it counts once");
         }
         warn(dataset.traces.iter().flat_map(|trace| &trace.warnings));
         warn_of_left_out(&dataset.left_out);

@@ -8,6 +8,7 @@ use typelift::model::{
     ArgumentTypes, Evidence, Hierarchy, LearnedModel, MergeError, ParseConfig, SourceId, Symbol, TypeId,
 };
 use typelift::world::{FileError, read_types, source_of_file};
+use typelift_memory::looks_like_memory;
 
 use crate::failure::Failure;
 use crate::files::{ModelInput, read_model_input};
@@ -36,15 +37,15 @@ impl<'p> Given<'p> {
     }
 }
 
-/// A model without anything that it was learned from, or as it is in its file; and what to warn of in the types.
+/// A model without anything that it was learned from, or the one that is added to; and what to warn of in the types.
 pub(crate) fn beginning(
-    into: Option<&PathBuf>,
+    added_to: Option<LearnedModel>,
     types: Option<&PathBuf>,
     ignore: BTreeSet<Symbol>,
 ) -> Result<(LearnedModel, Vec<FileError>), Failure> {
     let mut types = types.map(|path| Given::read(path)).transpose()?;
     let warnings = types.as_mut().map(|given| std::mem::take(&mut given.warnings)).unwrap_or_default();
-    let Some(path) = into else {
+    let Some(mut learned) = added_to else {
         let mut none =
             LearnedModel { parse: ParseConfig { ignore, ..ParseConfig::default() }, ..LearnedModel::default() };
         if let Some(Given { hierarchy, domain, constants, predicates, .. }) = types {
@@ -52,9 +53,6 @@ pub(crate) fn beginning(
             none.declared_predicates = predicates;
         }
         return Ok((none, warnings));
-    };
-    let ModelInput::Learned(mut learned) = read_model_input(path, None)? else {
-        return Err(Failure::bad_input(format!("{}: this is a PDDL domain, not a learned model", path.display())));
     };
     if let Some(Given { path: given, hierarchy, domain, constants, predicates, .. }) = types {
         let agreed = learned.agrees(&hierarchy, &learned.parse);
@@ -84,7 +82,21 @@ pub(crate) fn beginning(
             Failure::bad_input(format!("--ignore: {error}")).with_hint(hint)
         })?;
     }
-    Ok((*learned, warnings))
+    Ok((learned, warnings))
+}
+
+/// The learned model of a file.
+pub(crate) fn model_at(path: &Path) -> Result<LearnedModel, Failure> {
+    if looks_like_memory(path) {
+        let failure = Failure::bad_input(format!("{}: this is a memory, not a model", path.display()));
+        return Err(failure.with_hint("--memory FILE adds to a memory; `typelift memory forget` takes things back."));
+    }
+    match read_model_input(path, None, true)? {
+        ModelInput::Learned(learned) => Ok(*learned),
+        ModelInput::Given(_) => {
+            Err(Failure::bad_input(format!("{}: this is a PDDL domain, not a learned model", path.display())))
+        }
+    }
 }
 
 /// What learning is asked for: as before, but for what is said now.

@@ -102,9 +102,9 @@ fn main() -> ExitCode {
     let ended = match arguments.command {
         Command::Demo(demo) => demo.run(clock),
         Command::Learn(learn) => learn.run(clock, quiet),
-        Command::Show(show) => show.run(),
+        Command::Show(show) => show.run(quiet),
         Command::Why(why) => why.run(quiet),
-        Command::Diff(diff) => diff.run(),
+        Command::Diff(diff) => diff.run(quiet),
         Command::Plan(plan) => plan.run(clock, quiet),
         Command::Export(export) => export.run(clock, quiet),
         Command::Run(run) => run.run(clock, quiet),

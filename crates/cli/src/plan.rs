@@ -198,7 +198,7 @@ impl Plan {
     ) -> Result<FirstAnswer, Failure> {
         let model = &self.planning.model;
         let input = match &self.memory {
-            None => model.read()?,
+            None => model.read(quiet)?,
             Some(file) => read_remembered(file, model.types.as_ref(), quiet)?,
         };
         // With a memory there is no model, and the task is the first file.

@@ -18,7 +18,7 @@ use crate::planner_option::PlannerOption;
 /// A model, and how it may be used.
 #[derive(Debug, Clone, clap::Args)]
 pub(crate) struct ModelArguments {
-    /// The model, as `learn` wrote it, or a PDDL domain
+    /// The model, as `learn` wrote it, a memory, or a PDDL domain
     #[arg(index = 1)]
     pub(crate) model: PathBuf,
     /// Add the types of this file to a learned model's
@@ -55,8 +55,8 @@ impl ModelArguments {
     }
 
     /// Reads the model.
-    pub(crate) fn read(&self) -> Result<ModelInput, Failure> {
-        read_model_input(&self.model, self.types.as_ref())
+    pub(crate) fn read(&self, quiet: bool) -> Result<ModelInput, Failure> {
+        read_model_input(&self.model, self.types.as_ref(), quiet)
     }
 
     /// As [`read`](Self::read), from the text of the model or domain.

@@ -12,7 +12,7 @@ use crate::failure::Failure;
 use crate::files::{ModelInput, add_types};
 use crate::style::WARNING;
 
-/// The model that a memory has learned, to plan with.
+/// The model that a memory has learned.
 pub(crate) fn read_remembered(file: &Path, types: Option<&PathBuf>, quiet: bool) -> Result<ModelInput, Failure> {
     let memory = Memory::open(file, Access::Read)?;
     if !quiet {

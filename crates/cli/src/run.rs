@@ -14,7 +14,7 @@ use typelift::world::{
     FileError, Parser, RecordSink, Recorder, Reset, Scene, TaskFile, TraceHeader, UnreadKey, World, read_text,
 };
 use typelift_kitchen::Kitchen;
-use typelift_memory::Memory;
+use typelift_memory::{Memory, looks_like_memory};
 
 use crate::confirm::{Which, confirm};
 use crate::environment::{Timeouts, start};
@@ -351,12 +351,19 @@ impl Run {
     fn read(&self, quiet: bool) -> Result<Given<'_>, Failure> {
         let arguments = &self.planning.model;
         let Some(file) = &self.memory else {
-            let input = arguments.read()?;
+            let input = arguments.read(quiet)?;
+            if !quiet && looks_like_memory(&arguments.model) {
+                anstream::eprintln!("{HINT}hint{HINT:#}: nothing of this run is kept; --memory FILE keeps it");
+            }
             let tasks = self.tasks.iter().map(|path| self.to_do(path, input.read_task(path, quiet)?));
             return Ok(Given { tasks: tasks.collect::<Result<_, _>>()?, input, remembered: None });
         };
         // The first file is a model, or else a task.
         let first = &arguments.model;
+        if looks_like_memory(first) {
+            let failure = Failure::bad_input(format!("{}: this is a memory, and --memory names one", first.display()));
+            return Err(failure.with_hint("Leave out one of the two."));
+        }
         let text = read_text(first)?;
         let is_task = self.tasks.is_empty() || is_task(&text);
         let (model, text) = match is_task {

@@ -1,7 +1,7 @@
 //! `typelift show`.
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use typelift::model::{ActionModel, ActionSchema, Evidence, LearnedModel, Source, SourceId, Symbol};
 use typelift::pddl::{ExportOptions, Level, export};
@@ -11,6 +11,7 @@ use crate::exit::Exit;
 use crate::failure::{Failure, or_one_of};
 use crate::files::{ModelInput, read_model_input};
 use crate::learn_report::refused_merges;
+use crate::remembered::read_remembered;
 use crate::show_vocabulary::{list_predicates, list_types};
 use crate::style::described;
 
@@ -20,10 +21,15 @@ use crate::style::described;
   typelift show kitchen.json
   typelift show kitchen.json --action USE-cutboard-food
   typelift show kitchen.json --predicates
+  typelift show robot.memory
   typelift show kitchen.json --pddl > kitchen.pddl")]
 pub(crate) struct Show {
-    /// The model, as `learn` wrote it, or a PDDL domain
-    model: PathBuf,
+    /// The model, as `learn` wrote it, a memory, or a PDDL domain
+    #[arg(required_unless_present = "memory")]
+    model: Option<PathBuf>,
+    /// Show what this memory has learned, instead of a MODEL
+    #[arg(long, value_name = "FILE", conflicts_with = "model")]
+    memory: Option<PathBuf>,
     /// Show one action with all of its evidence
     #[arg(long, value_name = "NAME", conflicts_with = "pddl")]
     action: Option<String>,
@@ -45,9 +51,13 @@ pub(crate) struct Show {
 }
 
 impl Show {
-    pub(crate) fn run(&self) -> Result<Exit, Failure> {
-        let input = read_model_input(&self.model, None)?;
-        let domain = input.domain_name(&self.model);
+    pub(crate) fn run(&self, quiet: bool) -> Result<Exit, Failure> {
+        let file = self.memory.as_ref().or(self.model.as_ref()).map(PathBuf::as_path).unwrap_or(Path::new(""));
+        let input = match &self.memory {
+            Some(memory) => read_remembered(memory, None, quiet)?,
+            None => read_model_input(file, None, quiet)?,
+        };
+        let domain = input.domain_name(file);
         let learned = match input {
             ModelInput::Learned(learned) => *learned,
             ModelInput::Given(domain) => domain.model.into(),

@@ -8,6 +8,7 @@ use typelift::check::{Invalid, validate, validate_stated};
 use typelift::model::{ActionModel, Budget, Task};
 use typelift::pddl::{PddlError, PlanLine, read_plan};
 use typelift::world::{FileError, StatedProblem, is_pddl, read_text};
+use typelift_memory::looks_like_memory;
 
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -96,11 +97,18 @@ impl Validate {
 
     /// Reads everything, and takes the plans' steps.
     fn check(&self, clock: Clock, quiet: bool) -> Result<Vec<Checked>, Failure> {
-        let (model, task) = (read_text(&self.model.model)?, read_text(&self.task)?);
-        if self.model.is_as_stated() && is_pddl(&model) && is_pddl(&task) {
-            return self.check_stated(model, task);
-        }
-        let input = self.model.input_of(model)?;
+        let model = match looks_like_memory(&self.model.model) {
+            true => None,
+            false => Some(read_text(&self.model.model)?),
+        };
+        let task = read_text(&self.task)?;
+        let input = match model {
+            Some(model) if self.model.is_as_stated() && is_pddl(&model) && is_pddl(&task) => {
+                return self.check_stated(model, task);
+            }
+            Some(model) => self.model.input_of(model)?,
+            None => self.model.read(quiet)?,
+        };
         let is_given = input.is_given();
         let (model, task) = input.planning_task_from_text(&self.task, &task, quiet)?;
         let budget = self.limits.budget(clock, &Interrupt::default());

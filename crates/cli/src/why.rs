@@ -14,6 +14,7 @@ use typelift::world::{FileError, Parser, TraceReader, is_trace, read_text, trace
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::{ModelInput, TaskInput, read_model_input};
+use crate::remembered::read_remembered;
 use crate::style::{HINT, painted};
 
 /// Say how likely a call works, and what speaks against it
@@ -21,6 +22,7 @@ use crate::style::{HINT, painted};
 #[command(after_help = "Examples:
   typelift why model.json 'USE(agent_1, cutboard_1, coconut_1)' --task task.json
   typelift why model.json 'USE(agent, cutboard, coconut)'
+  typelift why robot.memory 'USE(agent, cutboard, coconut)'
   typelift why model.json --calls calls.jsonl --json
 
 A model's demonstrations and recorded failures speak for a call, or against the
@@ -31,11 +33,15 @@ without a number: cutboard_1 is a cutboard.
 Exit codes: 0 something is known of every call, 12 not of every one, 31 bad
 input, 36 wrong usage.")]
 pub(crate) struct Why {
-    /// A learned model
-    model: PathBuf,
+    /// A learned model, or a memory
+    #[arg(required_unless_present = "memory")]
+    model: Option<PathBuf>,
     /// Calls, as `PICK(agent_1, counter_3, lettuce_1)`
-    #[arg(value_name = "CALL", required_unless_present = "calls")]
+    #[arg(value_name = "CALL", required_unless_present_any = ["calls", "memory"])]
     call: Vec<String>,
+    /// Ask what this memory has learned, instead of a MODEL
+    #[arg(long, value_name = "FILE")]
+    memory: Option<PathBuf>,
     /// Ask in the state of this task, or in the last one of this trace
     #[arg(long, value_name = "FILE")]
     task: Option<PathBuf>,
@@ -59,12 +65,13 @@ struct Asked {
 
 impl Why {
     pub(crate) fn run(&self, quiet: bool) -> Result<Exit, Failure> {
-        let input = read_model_input(&self.model, None)?;
+        let (input, calls) = self.read(quiet)?;
+        let learned = self.learned(&input)?;
         let asked = match &self.calls {
-            Some(file) => asked_in_file(file, learned(&input, &self.model)?)?,
-            None => self.asked_by_name(&input, quiet)?,
+            Some(file) => asked_in_file(file, learned)?,
+            None => self.asked_by_name(&calls, &input, quiet)?,
         };
-        let belief = Belief::of(learned(&input, &self.model)?);
+        let belief = Belief::of(learned);
         let mut out = anstream::stdout().lock();
         let mut all_known = true;
         for Asked { call, types, state } in asked {
@@ -73,7 +80,7 @@ impl Why {
             let view = WhyView::new(call, judgement);
             all_known &= !view.unknown;
             if !quiet {
-                let model = &learned(&input, &self.model)?.model;
+                let model = &learned.model;
                 match &state {
                     _ if view.unknown => say_what_is_unknown(&view.call, &types, model),
                     Some(state) => say_what_is_not_there(&view.call, &types, state, model),
@@ -91,11 +98,39 @@ impl Why {
         Ok(if all_known { Exit::Success } else { Exit::NotAchieved })
     }
 
+    /// What is asked, and about which calls of the command line: with a memory there is no model, and the first of the words
+    /// is a call.
+    fn read(&self, quiet: bool) -> Result<(ModelInput, Vec<String>), Failure> {
+        let Some(memory) = &self.memory else {
+            let file = self.model.as_deref().unwrap_or(Path::new(""));
+            return Ok((read_model_input(file, None, quiet)?, self.call.clone()));
+        };
+        let first = self.model.iter().map(|word| word.display().to_string());
+        let calls: Vec<String> = first.chain(self.call.iter().cloned()).collect();
+        let usage = |message| Err(Failure::new(Exit::Usage, message));
+        match (calls.first(), &self.calls) {
+            (None, None) => usage("no call: name one after --memory FILE, or a file of them with --calls"),
+            (Some(_), Some(_)) => usage("--calls has the calls: name none beside it, and no model beside --memory"),
+            _ => Ok((read_remembered(memory, None, quiet)?, calls)),
+        }
+    }
+
+    /// The model with its evidence: a domain has none.
+    fn learned<'m>(&self, input: &'m ModelInput) -> Result<&'m LearnedModel, Failure> {
+        match (input, &self.model) {
+            (ModelInput::Learned(learned), _) => Ok(learned),
+            (ModelInput::Given(_), model) => {
+                let message = "a PDDL domain says what works; only what was learned can be doubted";
+                Err(FileError::new(model.as_deref().unwrap_or(Path::new("")), message).into())
+            }
+        }
+    }
+
     /// The calls of the command line, in the state of the task.
-    fn asked_by_name(&self, input: &ModelInput, quiet: bool) -> Result<Vec<Asked>, Failure> {
-        let learned = learned(input, &self.model)?;
+    fn asked_by_name(&self, calls: &[String], input: &ModelInput, quiet: bool) -> Result<Vec<Asked>, Failure> {
+        let learned = self.learned(input)?;
         let state = self.task.as_ref().map(|task| state_of(input, learned, task, quiet)).transpose()?;
-        let asked = self.call.iter().map(|text| {
+        let asked = calls.iter().map(|text| {
             let atom = GroundAtom::parse(text).map_err(|error| {
                 Failure::new(Exit::Usage, error).with_hint("A call is written as PICK(agent_1, counter_3, lettuce_1).")
             })?;
@@ -155,17 +190,6 @@ fn say_what_is_not_there(call: &GroundCall, types: &[Option<TypeId>], state: &St
         anstream::eprintln!(
             "{HINT}hint{HINT:#}: `{arg}` is not in the state, so nothing that holds of it is known; of type {ty} there: {there}"
         );
-    }
-}
-
-/// The model with its evidence: a domain has none.
-fn learned<'m>(input: &'m ModelInput, path: &Path) -> Result<&'m LearnedModel, Failure> {
-    match input {
-        ModelInput::Learned(learned) => Ok(learned),
-        ModelInput::Given(_) => {
-            let message = "a PDDL domain says what works; only what was learned can be doubted";
-            Err(FileError::new(path, message).into())
-        }
     }
 }
 

@@ -49,6 +49,14 @@ impl Fold {
         let last = log::last(connection)?;
         let mut unread = Vec::new();
         let taken_back = taken_back(connection)?;
+        // First, since what was seen again after it was taken back counts again.
+        for entry in list(connection, Wanted::After(Kind::Forgotten, from))? {
+            let log::Forgotten { source, entries } = entry.content()?;
+            if entries.iter().any(|entry| *entry <= from) {
+                // What never was compact is not compact now.
+                let _ = self.evidence.take_out(source);
+            }
+        }
         for entry in list(connection, Wanted::After(Kind::Evidence, from))? {
             let evidence = model_evidence(&entry, &taken_back)?;
             self.add(entry.number, &evidence, &mut unread);
@@ -65,13 +73,6 @@ impl Fold {
                 }
                 Ok((_, evidence)) => self.add(episode, &evidence, &mut unread),
                 Err(error) => unread.push(Unread { entry: episode, why: error.to_string() }),
-            }
-        }
-        for entry in list(connection, Wanted::After(Kind::Forgotten, from))? {
-            let log::Forgotten { source, entries } = entry.content()?;
-            if entries.iter().any(|entry| *entry <= from) {
-                // What never was compact is not compact now.
-                let _ = self.evidence.take_out(source);
             }
         }
         self.up_to = last;

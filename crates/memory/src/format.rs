@@ -3,6 +3,8 @@
 //! It is a SQLite database with a write-ahead log, so that a reader does not wait for a writer, and each entry is on the
 //! disk when it was appended. `application_id` says that it is a memory, `user_version` of which version.
 
+use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -42,6 +44,19 @@ pub enum Access {
     Read,
     /// To append to it as well.
     Write,
+}
+
+/// How every SQLite database begins.
+const DATABASE: &[u8] = b"SQLite format 3\0";
+
+/// Whether a file is a database, and so a memory if it is anything of typelift's. Only the beginning of a regular file is read.
+pub fn looks_like_memory(file: &Path) -> bool {
+    let begins = |file: &Path| -> std::io::Result<bool> {
+        let mut first = [0; DATABASE.len()];
+        File::open(file)?.read_exact(&mut first)?;
+        Ok(first == DATABASE)
+    };
+    file.is_file() && begins(file).unwrap_or(false)
 }
 
 /// Opens a memory that is there.

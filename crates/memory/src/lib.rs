@@ -22,7 +22,7 @@ pub use checked::{Checked, check};
 pub use episode::EpisodeLog;
 pub use error::{MemoryError, MemoryErrorKind};
 pub use fold::Unread;
-pub use format::Access;
+pub use format::{Access, looks_like_memory};
 pub use logged::{Logged, What};
 pub use memory::Memory;
 pub use version::VERSION;

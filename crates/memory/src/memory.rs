@@ -136,17 +136,30 @@ impl Memory {
     /// [`MemoryError`] if the model was learned from scenes read in another way, keeps totals only, or read a trace that is
     /// known in another way; and if nothing can be written. Then nothing is added.
     pub fn add_model(&mut self, model: &LearnedModel, name: &str) -> Result<usize, MemoryError> {
-        self.try_add_model(model, name).map_err(|kind| kind.of(&self.file))
+        self.try_add(model, name, brought_by_models).map_err(|kind| kind.of(&self.file))
     }
 
-    fn try_add_model(&mut self, model: &LearnedModel, name: &str) -> Result<usize, MemoryErrorKind> {
+    /// Adds demonstrations that were shown now, with the model that they alone give: as far as they are not known. What was
+    /// taken back before counts again. `name` is what people call them. Gives how many sources it added.
+    ///
+    /// # Errors
+    /// As [`add_model`](Self::add_model).
+    pub fn add_demonstrations(&mut self, shown: &LearnedModel, name: &str) -> Result<usize, MemoryError> {
+        self.try_add(shown, name, known_now).map_err(|kind| kind.of(&self.file))
+    }
+
+    fn try_add(
+        &mut self,
+        model: &LearnedModel,
+        name: &str,
+        known: impl FnOnce(&Connection, &LearnedModel) -> Result<Vec<SourceId>, MemoryErrorKind>,
+    ) -> Result<usize, MemoryErrorKind> {
         self.check_kind(model, name)?;
+        self.learn()?;
         let transaction = self.connection.transaction_with_behavior(TransactionBehavior::Immediate)?;
         let mut evidence = model.evidence.clone();
-        for entry in list(&transaction, Wanted::Of(Kind::Evidence))? {
-            for source in entry.content::<log::Evidence>()?.sources {
-                let _ = evidence.take_out(source);
-            }
+        for source in known(&transaction, &self.learned)? {
+            let _ = evidence.take_out(source);
         }
         let sources: Vec<SourceId> = evidence.sources().keys().copied().collect();
         if sources.is_empty() {
@@ -252,6 +265,20 @@ impl Memory {
     pub fn entries(&self) -> Result<Vec<Logged>, MemoryError> {
         logged(&self.connection).map_err(|kind| kind.of(&self.file))
     }
+}
+
+/// The sources that any model brought, those that were taken back too.
+fn brought_by_models(log: &Connection, _: &LearnedModel) -> Result<Vec<SourceId>, MemoryErrorKind> {
+    let mut all = Vec::new();
+    for entry in list(log, Wanted::Of(Kind::Evidence))? {
+        all.extend(entry.content::<log::Evidence>()?.sources);
+    }
+    Ok(all)
+}
+
+/// The sources that something is learned from.
+fn known_now(_: &Connection, learned: &LearnedModel) -> Result<Vec<SourceId>, MemoryErrorKind> {
+    Ok(learned.evidence.sources().keys().copied().collect())
 }
 
 /// That what a model was learned from can be kept source by source.

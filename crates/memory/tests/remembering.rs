@@ -73,8 +73,13 @@ fn what_is_forgotten_has_never_been() {
     assert_eq!(bytes(&memory), with_it);
     memory.forget(episode).expect("known");
     memory.forget(shown).expect("known");
-    memory.add_model(&learned(&[trace]), "m").expect("nothing to add");
+    memory.add_model(&learned(std::slice::from_ref(&trace)), "m").expect("nothing to add");
     assert_eq!((bytes(&memory), bytes(&reopened(&memory))), (nothing.clone(), nothing));
+    // One that is shown again does.
+    let again = learned(&[trace]);
+    assert_eq!(memory.add_demonstrations(&again, "shown").expect("added"), 1);
+    assert_eq!(memory.add_demonstrations(&again, "shown").expect("known"), 0);
+    assert_eq!(bytes(&reopened(&memory)), again.to_json().expect("a model"));
 }
 
 #[test]

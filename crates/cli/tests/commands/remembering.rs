@@ -194,3 +194,61 @@ fn a_killed_run_remembers_every_step_that_it_told_of() {
         folder.run(&format!("memory check {memory}")).succeeds();
     }
 }
+
+#[test]
+fn demonstrations_are_learned_into_a_memory() {
+    let folder = Folder::kitchen();
+    let missing = folder.refuses(36, "learn K/demos --memory m");
+    assert!(missing.err.contains("There is no m yet"), "{missing}");
+    let first = folder.run("learn K/demos/cut_lettuce.jsonl --types K/types.pddl --memory m");
+    first.succeeds();
+    assert!(first.err.contains("added 1 demonstration to m\n"), "{first}");
+    let dry = folder.run("learn K/demos --memory m --dry-run");
+    dry.succeeds();
+    assert!(dry.out.contains("13 generalized actions") && !dry.err.contains("added"), "{dry}");
+    let others = folder.run("learn K/demos --memory m -o learned.json");
+    others.succeeds();
+    assert!(others.err.starts_with("wrote learned.json\nadded 7 demonstrations to m\nwarning: "), "{others}");
+    assert!(others.err.contains("is in the memory already; it counts once"), "{others}");
+    assert_eq!(folder.read("learned.json"), folder.read("kitchen.json"), "as if all had been learned at once");
+    folder.run("memory export m -o exported.json -q").succeeds();
+    assert_eq!(folder.read("exported.json"), folder.read("kitchen.json"));
+    let other = folder.refuses(31, "learn K/demos --memory m --individual");
+    assert!(other.err.contains("it was learned with other options"), "{other}");
+    // What was taken back and is shown again counts again.
+    folder.run("memory forget m cut_lettuce.jsonl -q").succeeds();
+    folder.run("learn K/demos/cut_lettuce.jsonl --memory m -q").succeeds();
+    assert_eq!(folder.run("diff m kitchen.json").out, "the same\n");
+}
+
+#[test]
+fn a_memory_stands_where_a_model_stands() {
+    let folder = Folder::kitchen();
+    folder.run("learn K/demos --types K/types.pddl --memory m -q").succeeds();
+    let why = "'USE(agent_1, cutboard_1, coconut_1)'";
+    for (of_memory, of_model) in [
+        ("show m".to_owned(), "show kitchen.json".to_owned()),
+        ("show --memory m --sources".to_owned(), "show kitchen.json --sources".to_owned()),
+        (format!("why m {why}"), format!("why kitchen.json {why}")),
+        (format!("why --memory m {why}"), format!("why kitchen.json {why}")),
+        ("plan m K/tasks/T1.1.json".to_owned(), "plan kitchen.json K/tasks/T1.1.json".to_owned()),
+        (
+            "run m K/tasks/T1.1.json --kitchen -q".to_owned(),
+            "run kitchen.json K/tasks/T1.1.json --kitchen -q".to_owned(),
+        ),
+    ] {
+        let (found, expected) = (folder.run(&of_memory), folder.run(&of_model));
+        expected.succeeds();
+        assert_eq!((found.out, found.err), (expected.out, expected.err), "{of_memory}");
+    }
+    let kept = folder.run("run m K/tasks/T1.1.json --kitchen");
+    assert!(kept.err.starts_with("hint: nothing of this run is kept; --memory FILE keeps it\n"), "{kept}");
+    let mut transcript = crate::common::Transcript::default();
+    for command in ["learn --into m K/demos", "run m K/tasks/T1.1.json --kitchen --memory m"] {
+        transcript.add(command, &folder.refuses(31, command));
+    }
+    for command in ["why --memory m", "why --memory m 'USE(a)' --calls calls.jsonl", "show --memory m kitchen.json"] {
+        transcript.add(command, &folder.refuses(36, command));
+    }
+    insta::assert_snapshot!("memories-as-models", transcript.0);
+}
