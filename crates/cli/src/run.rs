@@ -362,7 +362,9 @@ impl Run {
         let first = &arguments.model;
         if looks_like_memory(first) {
             let failure = Failure::bad_input(format!("{}: this is a memory, and --memory names one", first.display()));
-            return Err(failure.with_hint("Leave out one of the two."));
+            return Err(
+                failure.with_hint("Leave out one of the two; `typelift memory merge` makes one memory of several.")
+            );
         }
         let text = read_text(first)?;
         let is_task = self.tasks.is_empty() || is_task(&text);

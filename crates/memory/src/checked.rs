@@ -67,8 +67,7 @@ fn pages(connection: &Connection, problems: &mut Vec<String>) {
 
 /// What is wrong with the sum over all entries, and whether the one that is kept is another.
 fn sums(connection: &Connection) -> Result<Vec<String>, MemoryErrorKind> {
-    let basis: String = connection.query_row("SELECT model FROM basis", [], |row| row.get(0))?;
-    let basis = LearnedModel::from_json(&basis)?;
+    let basis = LearnedModel::from_json(&format::basis(connection)?)?;
     let anew = Fold::default().go_on(connection, &basis)?;
     let mut problems: Vec<String> = anew
         .unread

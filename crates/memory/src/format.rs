@@ -110,6 +110,37 @@ pub(crate) fn create(path: &Path, basis: &str) -> Result<Connection, MemoryError
     Ok(connection)
 }
 
+/// Makes a memory with this basis and what `fill` writes to it, where there is nothing yet. If that fails there is still
+/// nothing.
+pub(crate) fn create_filled(
+    path: &Path,
+    basis: &str,
+    fill: impl FnOnce(&Connection) -> Result<(), MemoryErrorKind>,
+) -> Result<(), MemoryErrorKind> {
+    if path.symlink_metadata().is_ok() {
+        return Err(MemoryErrorKind::Exists);
+    }
+    let filled = create(path, basis).and_then(|mut connection| {
+        let transaction = connection.transaction_with_behavior(TransactionBehavior::Immediate)?;
+        fill(&transaction)?;
+        Ok(transaction.commit()?)
+    });
+    if filled.is_err() {
+        for file in ["", "-wal", "-shm"] {
+            let mut name = path.as_os_str().to_owned();
+            name.push(file);
+            // What was not made cannot be removed.
+            let _ = std::fs::remove_file(name);
+        }
+    }
+    filled
+}
+
+/// The model without evidence that says how scenes are read.
+pub(crate) fn basis(connection: &Connection) -> Result<String, MemoryErrorKind> {
+    Ok(connection.query_row("SELECT model FROM basis", [], |row| row.get(0))?)
+}
+
 /// The file beside a memory that holds what was written last, as long as it is open or after the program was killed.
 fn write_ahead_log(path: &Path) -> PathBuf {
     let mut name = path.as_os_str().to_owned();

@@ -8,6 +8,7 @@
 #![deny(missing_docs)]
 
 mod checked;
+mod copying;
 mod episode;
 mod error;
 mod fold;
@@ -15,6 +16,7 @@ mod format;
 mod log;
 mod logged;
 mod memory;
+mod merge;
 mod scene_change;
 mod version;
 
@@ -25,4 +27,5 @@ pub use fold::Unread;
 pub use format::{Access, looks_like_memory};
 pub use logged::{Logged, What};
 pub use memory::Memory;
+pub use merge::{Merged, merge};
 pub use version::VERSION;

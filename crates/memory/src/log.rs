@@ -29,7 +29,7 @@ pub(crate) enum Kind {
 impl Kind {
     const ALL: [Self; 5] = [Self::Evidence, Self::Begun, Self::Stepped, Self::Ended, Self::Forgotten];
 
-    const fn word(self) -> &'static str {
+    pub(crate) const fn word(self) -> &'static str {
         match self {
             Self::Evidence => "evidence",
             Self::Begun => "begun",
@@ -90,7 +90,8 @@ pub(crate) struct Entry {
     pub(crate) kind: Kind,
     /// The entry with which the episode began that it belongs to.
     pub(crate) episode: Option<i64>,
-    content: String,
+    /// What it says, as it is kept.
+    pub(crate) content: String,
 }
 
 impl Entry {

@@ -66,8 +66,7 @@ impl Memory {
     }
 
     fn begin(file: &Path, connection: Connection, access: Access) -> Result<Self, MemoryErrorKind> {
-        let basis: String = connection.query_row("SELECT model FROM basis", [], |row| row.get(0))?;
-        let basis = LearnedModel::from_json(&basis)?;
+        let basis = LearnedModel::from_json(&format::basis(&connection)?)?;
         let (fold, learned) = kept_fold(&connection)?.unwrap_or_else(|| (Fold::default(), basis.clone()));
         let (file, kept_up_to) = (file.to_owned(), fold.up_to);
         let mut memory = Self { file, connection, access, basis, fold, kept_up_to, learned, unread: Vec::new() };
@@ -186,13 +185,10 @@ impl Memory {
 
     fn check_kind(&self, model: &LearnedModel, name: &str) -> Result<(), MemoryErrorKind> {
         check_addable(model, name)?;
-        let basis = &self.basis;
-        let difference = match model.agrees(&basis.model.hierarchy, &basis.parse) {
-            Err(difference) => difference.between("the model", "the memory"),
-            Ok(()) if model.options != basis.options => "it was learned with other options".to_owned(),
-            Ok(()) => return Ok(()),
-        };
-        Err(MemoryErrorKind::Disagrees { model: name.to_owned(), difference })
+        match difference_between(model, &self.basis, ["the model", "the memory"]) {
+            Some(difference) => Err(MemoryErrorKind::Disagrees { model: name.to_owned(), difference }),
+            None => Ok(()),
+        }
     }
 
     /// Keeps what happens in an episode, as it happens.
@@ -279,6 +275,15 @@ fn brought_by_models(log: &Connection, _: &LearnedModel) -> Result<Vec<SourceId>
 /// The sources that something is learned from.
 fn known_now(_: &Connection, learned: &LearnedModel) -> Result<Vec<SourceId>, MemoryErrorKind> {
     Ok(learned.evidence.sources().keys().copied().collect())
+}
+
+/// The first difference in how scenes are read and learned from, where the two are called so.
+pub(crate) fn difference_between(one: &LearnedModel, other: &LearnedModel, names: [&str; 2]) -> Option<String> {
+    match one.agrees(&other.model.hierarchy, &other.parse) {
+        Err(difference) => Some(difference.between(names[0], names[1])),
+        Ok(()) if one.options != other.options => Some("it was learned with other options".to_owned()),
+        Ok(()) => None,
+    }
 }
 
 /// That what a model was learned from can be kept source by source.

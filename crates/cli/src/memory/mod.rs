@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use typelift::model::SourceId;
 use typelift::words::count;
-use typelift_memory::{Access, Memory, What, check};
+use typelift_memory::{Access, Memory, Merged, What, check, merge};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -60,6 +60,20 @@ enum Command {
         #[arg(long, short, value_name = "MODEL")]
         output: Option<PathBuf>,
     },
+    /// Make one memory of several; what is in more than one of them is there once
+    #[command(after_help = "Example:
+  typelift memory merge kitchen.memory lab.memory -o both.memory
+
+They must be of one hierarchy and one way of reading scenes. What is learned is
+the same as from all that they saw, in whatever order they are named.")]
+    Merge {
+        /// The memories, which stay as they are
+        #[arg(required = true, num_args = 2.., value_name = "FILE")]
+        files: Vec<PathBuf>,
+        /// The new memory
+        #[arg(long, short, value_name = "FILE")]
+        output: PathBuf,
+    },
     /// Look whether everything is as it was written
     #[command(after_help = "Example:
   typelift memory check robot.memory
@@ -92,6 +106,7 @@ impl MemoryCommand {
             Command::Export { file, traces, output } => {
                 export(&read(file, quiet)?, traces.as_deref(), output.as_deref(), quiet)
             }
+            Command::Merge { files, output } => merge_into(files, output, quiet),
             Command::Check { file } => report(file),
             Command::Forget { file, sources } => forget(file, sources, quiet),
         }
@@ -125,14 +140,30 @@ fn show(memory: &Memory) -> Result<Exit, Failure> {
     Ok(Exit::Success)
 }
 
+fn merge_into(files: &[PathBuf], output: &Path, quiet: bool) -> Result<Exit, Failure> {
+    let files: Vec<&Path> = files.iter().map(PathBuf::as_path).collect();
+    let Merged { entries, shared } = merge(&files, output)?;
+    // What is learned is kept in it.
+    let memory = Memory::open(output, Access::Write)?;
+    if !quiet {
+        warn_unread(&memory);
+        let twice = if shared == 0 { String::new() } else { format!(", {shared} of them in more than one") };
+        anstream::eprintln!("wrote {} with {}{twice}", output.display(), entries_said(entries as u64));
+    }
+    Ok(Exit::Success)
+}
+
+fn entries_said(number: u64) -> String {
+    if number == 1 { "1 entry".to_owned() } else { format!("{number} entries") }
+}
+
 fn report(file: &Path) -> Result<Exit, Failure> {
     let found = check(file)?;
     let mut out = anstream::stdout().lock();
     for problem in &found.problems {
         writeln!(out, "{BAD}wrong{BAD:#}: {problem}")?;
     }
-    let entries = if found.entries == 1 { "entry" } else { "entries" };
-    writeln!(out, "{} {entries} can be read", found.entries)?;
+    writeln!(out, "{} can be read", entries_said(found.entries))?;
     Ok(if found.problems.is_empty() { Exit::Success } else { Exit::NotAchieved })
 }
 

@@ -17,6 +17,7 @@ fn every_command_has_help() {
         "memory show",
         "memory log",
         "memory export",
+        "memory merge",
         "memory check",
         "memory forget",
         "check-env",

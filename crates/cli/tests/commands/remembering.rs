@@ -252,3 +252,31 @@ fn a_memory_stands_where_a_model_stands() {
     }
     insta::assert_snapshot!("memories-as-models", transcript.0);
 }
+
+#[test]
+fn two_memories_become_one() {
+    let folder = Folder::kitchen();
+    folder.run(&format!("run kitchen.json {APPLE} --kitchen --imagine --memory m -q")).succeeds();
+    std::fs::copy(folder.path("m"), folder.path("n")).expect("copied");
+    folder.run("run K/tasks/T1.1.json --kitchen --memory m --record R -q").succeeds();
+    folder.run("run K/tasks/T2.1.json --kitchen --memory n --record R -q").succeeds();
+    folder.run(&format!("run kitchen.json {APPLE} --kitchen --imagine --record R -q")).succeeds();
+    let merged = folder.run("memory merge m n -o both");
+    merged.succeeds();
+    assert_eq!(merged.err, "wrote both with 22 entries, 8 of them in more than one\n");
+    folder.run("memory merge n m -o again -q").succeeds();
+    folder.run("learn --into kitchen.json R -o learned.json -q").succeeds();
+    for memory in ["both", "again"] {
+        assert_eq!(folder.run(&format!("memory check {memory}")).out, "22 entries can be read\n");
+        folder.run(&format!("memory export {memory} -o {memory}.json -q")).succeeds();
+        assert_eq!(folder.read(&format!("{memory}.json")), folder.read("learned.json"), "as if learned from both");
+    }
+    folder.run("learn K/demos --types K/types.pddl --ignore open --memory other -q").succeeds();
+    let mut transcript = crate::common::Transcript::default();
+    for command in ["memory merge m other -o new", "memory merge m n -o both", "memory merge m kitchen.json -o new"] {
+        transcript.add(command, &folder.refuses(31, command));
+    }
+    transcript.add("one alone", &folder.refuses(36, "memory merge m -o new"));
+    insta::assert_snapshot!("refused-merges", transcript.0);
+    assert!(!folder.path("new").exists());
+}
