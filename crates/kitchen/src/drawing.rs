@@ -169,6 +169,15 @@ fn content_lines(room: &Room) -> Vec<String> {
     }
     let broken = room.stations.iter().filter(|s| s.broken);
     lines.extend(broken.map(|s| wrapped(&format!("{} is broken, which the agent cannot see", s.name))));
+    let exceptions = room.quirks.exceptions.iter();
+    lines.extend(exceptions.map(|(food, tool)| {
+        wrapped(&format!("{} does nothing to {}, which the agent cannot see", tool.name(), food.name()))
+    }));
+    for (tools, loaded) in &room.quirks.interlocks {
+        let tools: Vec<&str> = tools.iter().map(|tool| room.stations[*tool].name.as_str()).collect();
+        let (tools, loaded) = (tools.join(", "), &room.stations[*loaded].name);
+        lines.push(wrapped(&format!("{tools} do nothing while {loaded} is loaded, which the agent cannot see")));
+    }
     lines
 }
 

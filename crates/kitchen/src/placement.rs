@@ -5,6 +5,7 @@ use typelift_model::{SplitMix64, Symbol};
 
 use crate::grid::Cell;
 use crate::kind::{AGENT, ItemKind, StationKind};
+use crate::quirk::Quirks;
 use crate::room::{Agent, Item, Room, Station, Which};
 use crate::scenario::ScenarioError;
 
@@ -37,7 +38,7 @@ impl Room {
         let mut order = vec![Which::Agent];
         order.extend((0..stations.len()).map(Which::Station));
         order.extend((0..items.len()).map(Which::Item));
-        Ok(Self { agent, stations, items, order })
+        Ok(Self { agent, stations, items, order, quirks: Quirks::default() })
     }
 }
 

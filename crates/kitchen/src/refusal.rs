@@ -3,6 +3,25 @@
 use thiserror::Error;
 use typelift_model::Symbol;
 
+impl Refusal {
+    /// Whether it is a matter of the types of the arguments alone, and would be so in every state.
+    pub(crate) fn is_of_types(&self) -> bool {
+        match self {
+            Self::UnknownAction { .. } | Self::Arguments { .. } | Self::NotA { .. } => true,
+            Self::NotAccepted { because, .. } => {
+                [NOT_FOOD, NEEDS_MACHETE, NOT_BLENDABLE, NOT_TOASTABLE].contains(because)
+            }
+            _ => false,
+        }
+    }
+}
+
+/// Objections that are a matter of types.
+pub(crate) const NOT_FOOD: &str = "it is not food";
+pub(crate) const NEEDS_MACHETE: &str = "only a machete cuts it";
+pub(crate) const NOT_BLENDABLE: &str = "it cannot be blended";
+pub(crate) const NOT_TOASTABLE: &str = "it cannot be toasted";
+
 /// Why an action changed nothing.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum Refusal {

@@ -11,6 +11,7 @@ use typelift_world::{Entity, Snapshot, Value};
 
 use crate::grid::Cell;
 use crate::kind::{AGENT, ItemKind, StationKind};
+use crate::quirk::Quirks;
 use crate::room::{Agent, Container, Item, Room, Station, Toast, Which};
 use crate::snapshot_error::SnapshotError;
 
@@ -62,7 +63,8 @@ impl Room {
                 return Err(SnapshotError::Type { entity: id.clone(), ty: ty.clone() });
             }
         }
-        Ok(Self { agent: agent.ok_or(SnapshotError::NoAgent)?, stations, items, order })
+        let agent = agent.ok_or(SnapshotError::NoAgent)?;
+        Ok(Self { agent, stations, items, order, quirks: Quirks::default() })
     }
 
     /// What the entity holds or contains.

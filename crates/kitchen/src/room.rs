@@ -4,6 +4,7 @@ use typelift_model::Symbol;
 
 use crate::grid::{Cell, Direction};
 use crate::kind::{ItemKind, StationKind};
+use crate::quirk::Quirks;
 
 /// A kitchen in one state.
 ///
@@ -16,6 +17,7 @@ pub struct Room {
     pub(crate) items: Vec<Item>,
     /// The order in which snapshots list them.
     pub(crate) order: Vec<Which>,
+    pub(crate) quirks: Quirks,
 }
 
 /// One of the things in a room.

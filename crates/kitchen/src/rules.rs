@@ -6,13 +6,14 @@
 //! | PLACE c | x is held; c accepts x                                           | x is the topmost in c; hand empty; a tool gets Ready |
 //! | USE t   | t is a tool, its status is Ready, there is something it can do   | the food changes; status NotUsable |
 //!
-//! A broken tool takes and gives as a healthy one does; using it changes nothing.
+//! A broken tool takes and gives as a healthy one does; using it changes nothing. So does one that is interlocked with
+//! another in which something lies, and one that has a food in it that is an exception.
 
 use typelift_model::GroundCall;
 
 use crate::call::Deed;
 use crate::kind::Process;
-use crate::refusal::Refusal;
+use crate::refusal::{NEEDS_MACHETE, NOT_BLENDABLE, NOT_FOOD, NOT_TOASTABLE, Refusal};
 use crate::room::{Container, Item, Room, Toast};
 
 impl Room {
@@ -68,7 +69,7 @@ impl Room {
     }
 
     /// Where an action can be performed.
-    fn station_for(&self, deed: Deed) -> Result<usize, Refusal> {
+    pub(crate) fn station_for(&self, deed: Deed) -> Result<usize, Refusal> {
         match deed {
             Deed::Pick { item } => self.may_pick(item),
             Deed::Place { item, container } => self.may_place(item, container),
@@ -136,7 +137,7 @@ impl Room {
     /// What stands against putting the item on a plate.
     fn plate_objection(item: &Item) -> Option<&'static str> {
         if !item.kind.is_food() {
-            Some("it is not food")
+            Some(NOT_FOOD)
         } else if !item.chopped && !item.mashed {
             Some("it is neither chopped nor mashed")
         } else {
@@ -149,16 +150,14 @@ impl Room {
         let station = &self.stations[station];
         let process = station.kind.process()?;
         if !item.kind.is_food() {
-            return Some("it is not food");
+            return Some(NOT_FOOD);
         }
         match process {
             Process::Cut if item.chopped => Some("it is already chopped"),
-            Process::Cut if item.kind.has_hard_shell() && !station.kind.cuts_hard_shells() => {
-                Some("only a machete cuts it")
-            }
-            Process::Blend if !item.kind.can_be_blended() => Some("it cannot be blended"),
+            Process::Cut if item.kind.has_hard_shell() && !station.kind.cuts_hard_shells() => Some(NEEDS_MACHETE),
+            Process::Blend if !item.kind.can_be_blended() => Some(NOT_BLENDABLE),
             Process::Blend if item.mashed => Some("it is already mashed"),
-            Process::Toast if !item.kind.can_be_toasted() => Some("it cannot be toasted"),
+            Process::Toast if !item.kind.can_be_toasted() => Some(NOT_TOASTABLE),
             Process::Toast if item.toast == Toast::Fresh => Some("it has to be cut first"),
             Process::Toast if item.toast == Toast::Toasted => Some("it is already toasted"),
             Process::Toast if station.content.iter().any(|&other| self.items[other].toast != Toast::Ready) => {
@@ -184,7 +183,7 @@ impl Room {
             return Err(Refusal::NotReady { tool: station.name.clone() });
         }
         let works = station.content.iter().any(|&item| self.is_processed(tool, &self.items[item]));
-        if station.broken || !works {
+        if station.broken || self.interlock_of(tool).is_some() || !works {
             return Err(Refusal::NothingHappened { tool: station.name.clone() });
         }
         Ok(tool)
@@ -192,6 +191,11 @@ impl Room {
 
     /// Whether a healthy tool changes the item.
     fn is_processed(&self, tool: usize, item: &Item) -> bool {
+        self.would_be_processed(tool, item) && !self.is_exception(tool, item)
+    }
+
+    /// The same, if the item is no exception.
+    pub(crate) fn would_be_processed(&self, tool: usize, item: &Item) -> bool {
         match self.stations[tool].kind.process() {
             Some(Process::Cut) => !item.chopped,
             Some(Process::Blend) => item.kind.can_be_blended() && !item.mashed && !item.chopped,

@@ -5,12 +5,13 @@ use thiserror::Error;
 use typelift_model::{Symbol, json_message};
 use typelift_world::Snapshot;
 
-use crate::kind::ItemKind;
-use crate::room::Room;
+use crate::kind::{ItemKind, StationKind};
+use crate::quirk::{Exception, Interlock};
+use crate::room::{Room, Station};
 use crate::snapshot_error::SnapshotError;
 
 /// What to set up, as JSON: `{"items":["plate","bread","bread"],"filler":"novel","broken":["cutboard_1"]}`, or
-/// `{"state":…}` with a snapshot. Everything may be left out; the default is a plate and demonstrated food.
+/// `{"state":…}` with a snapshot. What makes tools do nothing may stand beside both. Everything may be left out; the default is a plate and demonstrated food.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "an object")]
 pub struct Scenario {
@@ -27,6 +28,12 @@ pub struct Scenario {
     /// The names of tools that do nothing when they are used. No snapshot tells.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub broken: Vec<Symbol>,
+    /// Foods that a tool does nothing to. No snapshot tells.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub exceptions: Vec<Exception>,
+    /// Tools that do nothing while something lies in another. No snapshot tells.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub interlocks: Vec<Interlock>,
 }
 
 /// What is added to the items asked for, until there are 8.
@@ -64,13 +71,25 @@ pub enum ScenarioError {
         /// How many there can be.
         most: usize,
     },
-    /// Something is to be broken that is no tool in this room.
-    #[error("the scenario breaks `{name}`, which is none of the room's tools ({tools})")]
+    /// Something is to be broken or interlocked that is no tool in this room.
+    #[error("the scenario {verb} `{name}`, which is none of the room's tools ({tools})")]
     NoSuchTool {
-        /// What is to be broken.
+        /// What it does to it.
+        verb: &'static str,
+        /// What is to be broken or interlocked.
         name: Symbol,
         /// The tools that there are.
         tools: String,
+    },
+    /// An exception of a type that no food or no tool has.
+    #[error("the scenario has the exception `{exception}`, and `{name}` is none of {known}")]
+    NoSuchException {
+        /// The exception.
+        exception: Exception,
+        /// The type.
+        name: Symbol,
+        /// The types that there are.
+        known: String,
     },
     /// Items or a filler beside a snapshot.
     #[error("the scenario has a `state`, which says what there is: `items` and `filler` have no place beside it")]
@@ -128,16 +147,48 @@ impl Room {
             None => Self::with_items(&kinds(scenario)?, seed)?,
         };
         for name in &scenario.broken {
-            if !room.break_tool(name.as_str()) {
-                let tools = room.stations.iter().filter(|s| s.kind.process().is_some()).map(|s| s.name.as_str());
-                return Err(ScenarioError::NoSuchTool {
-                    name: name.clone(),
-                    tools: tools.collect::<Vec<_>>().join(", "),
-                });
-            }
+            let tool = room.tool(name, "breaks")?;
+            room.stations[tool].broken = true;
+        }
+        for exception in &scenario.exceptions {
+            room.quirks.exceptions.push(kinds_of(exception)?);
+        }
+        for Interlock { tools, loaded } in &scenario.interlocks {
+            let tools = tools.iter().map(|tool| room.tool(tool, "interlocks")).collect::<Result<_, _>>()?;
+            let loaded = room.tool(loaded, "interlocks")?;
+            room.quirks.interlocks.push((tools, loaded));
         }
         Ok(room)
     }
+
+    /// The tool of this name, to which something is done.
+    fn tool(&self, name: &Symbol, verb: &'static str) -> Result<usize, ScenarioError> {
+        let is_tool = |station: &&Station| station.kind.process().is_some();
+        let found = self.stations.iter().position(|station| is_tool(&station) && station.name == *name);
+        found.ok_or_else(|| {
+            let tools: Vec<&str> = self.stations.iter().filter(is_tool).map(|s| s.name.as_str()).collect();
+            ScenarioError::NoSuchTool { verb, name: name.clone(), tools: tools.join(", ") }
+        })
+    }
+}
+
+/// The food and the tool of an exception.
+fn kinds_of(exception: &Exception) -> Result<(ItemKind, StationKind), ScenarioError> {
+    let unknown = |name: &Symbol, known: Vec<&str>| ScenarioError::NoSuchException {
+        exception: exception.clone(),
+        name: name.clone(),
+        known: known.join(", "),
+    };
+    let Exception { food, tool } = exception;
+    let foods = || ItemKind::ALL.into_iter().filter(|kind| kind.is_food());
+    let food = foods()
+        .find(|kind| *food == *kind.name())
+        .ok_or_else(|| unknown(food, foods().map(ItemKind::name).collect()))?;
+    let tools = || StationKind::TOOLS.into_iter();
+    let tool = tools()
+        .find(|kind| *tool == *kind.name())
+        .ok_or_else(|| unknown(tool, tools().map(StationKind::name).collect()))?;
+    Ok((food, tool))
 }
 
 /// The number of items that fillers fill up to.
@@ -196,7 +247,7 @@ mod tests {
         let refused = [
             (
                 json!({"itmes": []}),
-                "expected one of `state`, `items`, `filler`, `broken`, found the unknown field `itmes`",
+                "expected one of `state`, `items`, `filler`, `broken`, `exceptions`, `interlocks`, found the unknown field `itmes`",
             ),
             (
                 json!({"filler": "some"}),
@@ -208,6 +259,19 @@ mod tests {
             (json!({"items": vec!["apple"; 15]}), "the scenario asks for 15 items, and there is room for 14"),
             (json!({"broken": ["cutboard_2"]}), "breaks `cutboard_2`, which is none of the room's tools (cutboard_1, "),
             (json!({"broken": ["counter_1"]}), "breaks `counter_1`, which is none of the room's tools"),
+            (
+                json!({"exceptions": [{"food": "plate", "tool": "cutboard"}]}),
+                "the exception `plate with cutboard`, and `plate` is none of lettuce, tomato, ",
+            ),
+            (
+                json!({"exceptions": [{"food": "onion", "tool": "counter"}]}),
+                "`counter` is none of cutboard, breadslicer, ",
+            ),
+            (json!({"exceptions": ["onion"]}), "expected an object with `food` and `tool`"),
+            (
+                json!({"interlocks": [{"tools": ["cutboard_1"], "loaded": "counter_1"}]}),
+                "interlocks `counter_1`, which is none of the room's tools",
+            ),
             (json!({"state": state, "items": ["plate"]}), "`items` and `filler` have no place beside it"),
             (json!({"state": {"entities": []}}), "the scenario's state is not a kitchen: there is no agent"),
             (json!({"state": {"objects": {}}}), "`entities` is missing"),

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use serde_json::{Value, json};
-use typelift_kitchen::{Refusal, Room, Scenario};
+use typelift_kitchen::{Fault, Refusal, Room, Scenario};
 use typelift_model::{GroundCall, Symbol};
 
 fn room(scenario: &Value) -> Room {
@@ -245,6 +245,61 @@ fn a_broken_tool_takes_and_gives_but_does_nothing() {
     assert!(!text.contains("broken"), "it is hidden");
     perform(&mut room, &["PICK lettuce_1", "PLACE breadslicer_1", "USE breadslicer_1"]);
     assert_eq!(seen(&room, "lettuce_1", "chop_state"), "Chopped");
+}
+
+#[test]
+fn a_tool_does_nothing_to_an_exception_and_no_state_tells() {
+    let exceptions = json!([{"food": "lettuce", "tool": "cutboard"}, {"food": "bread", "tool": "toaster"}]);
+    let mut room = room(&json!({"items": ["lettuce", "bread", "bagel"], "exceptions": exceptions}));
+    perform(&mut room, &["PICK lettuce_1", "PLACE cutboard_1"]);
+    assert_eq!(seen(&room, "cutboard_1", "status"), "Ready");
+    assert_eq!(refused(&mut room, "USE cutboard_1"), "cutboard_1 was used, but nothing happened");
+    assert_eq!(fault(&room, "USE cutboard_1"), "exception: lettuce with cutboard");
+    perform(&mut room, &["PICK lettuce_1", "PLACE breadslicer_1", "USE breadslicer_1"]);
+    for item in ["bread_1", "bagel_1"] {
+        let pick = format!("PICK {item}");
+        perform(&mut room, &[&pick, "PLACE cutboard_1", "USE cutboard_1", &pick, "PLACE toaster_1"]);
+    }
+    perform(&mut room, &["USE toaster_1"]);
+    let toasted = ["bread_1", "bagel_1"].map(|item| seen(&room, item, "toast_state"));
+    assert_eq!(toasted, ["Ready", "Toasted"], "what is no exception is toasted beside it");
+}
+
+#[test]
+fn interlocked_tools_do_nothing_while_the_other_is_loaded() {
+    let interlocks = json!([{"tools": ["cutboard_1", "machete_1"], "loaded": "blender_1"}]);
+    let mut room = room(&json!({"items": ["lettuce", "carrot"], "interlocks": interlocks}));
+    perform(&mut room, &["PICK carrot_1", "PLACE blender_1", "PICK lettuce_1", "PLACE cutboard_1"]);
+    assert_eq!(refused(&mut room, "USE cutboard_1"), "cutboard_1 was used, but nothing happened");
+    assert_eq!(fault(&room, "USE cutboard_1"), "interlock: cutboard_1, machete_1 while blender_1 is loaded");
+    perform(&mut room, &["USE blender_1"]);
+    assert_eq!(refused(&mut room, "USE cutboard_1"), "cutboard_1 was used, but nothing happened");
+    perform(&mut room, &["PICK carrot_1"]);
+    assert_eq!(room.fault(&call("USE agent_1 cutboard_1")), None);
+    perform(&mut room, &["USE cutboard_1"]);
+}
+
+/// Why an action would change nothing, as the room itself has it.
+fn fault(room: &Room, action: &str) -> String {
+    let (name, target) = action.split_once(' ').unwrap();
+    room.fault(&call(&format!("{name} agent_1 {target}"))).expect(action).to_string()
+}
+
+#[test]
+fn a_fault_is_what_is_refused() {
+    let mut room = room(&json!({"items": ["coconut", "lettuce"], "broken": ["cutboard_1"]}));
+    let of_types = |room: &Room, action: &str| match room.fault(&call(action)) {
+        Some(Fault::Rule { of_types, refusal }) => (of_types, refusal),
+        other => panic!("{action}: {other:?}"),
+    };
+    perform(&mut room, &["PICK coconut_1"]);
+    let (shell, full) = ("PLACE agent_1 cutboard_1", "PICK agent_1 lettuce_1");
+    assert_eq!(of_types(&room, shell), (true, "cutboard_1 does not take coconut_1: only a machete cuts it".to_owned()));
+    assert_eq!(of_types(&room, full), (false, "the hand already holds coconut_1".to_owned()));
+    perform(&mut room, &["PLACE machete_1"]);
+    assert_eq!(room.fault(&call("USE agent_1 machete_1")), None);
+    perform(&mut room, &["PICK lettuce_1", "PLACE cutboard_1"]);
+    assert_eq!(fault(&room, "USE cutboard_1"), "cutboard_1 is broken");
 }
 
 #[test]

@@ -1,0 +1,64 @@
+//! What makes tools do nothing although no state tells, besides being broken.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+use typelift_model::Symbol;
+
+use crate::kind::{ItemKind, StationKind};
+use crate::room::{Item, Room};
+
+/// A food that a tool does nothing to, though it does to others like it: `{"food":"lettuce","tool":"cutboard"}`. Both are
+/// types. The tool takes and gives the food as any other.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object with `food` and `tool`")]
+pub struct Exception {
+    /// The food's type.
+    pub food: Symbol,
+    /// The tool's type.
+    pub tool: Symbol,
+}
+
+impl fmt::Display for Exception {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} with {}", self.food, self.tool)
+    }
+}
+
+/// Tools that do nothing while something lies in another: `{"tools":["cutboard_1"],"loaded":"toaster_1"}`. All are names.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object with `tools` and `loaded`")]
+pub struct Interlock {
+    /// The tools that do nothing.
+    pub tools: Vec<Symbol>,
+    /// The tool in which something lies.
+    pub loaded: Symbol,
+}
+
+impl fmt::Display for Interlock {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let tools: Vec<&str> = self.tools.iter().map(Symbol::as_str).collect();
+        write!(f, "{} while {} is loaded", tools.join(", "), self.loaded)
+    }
+}
+
+/// The exceptions and interlocks of a room. No snapshot tells.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct Quirks {
+    pub(crate) exceptions: Vec<(ItemKind, StationKind)>,
+    /// By station: those that do nothing, and the one in which something lies.
+    pub(crate) interlocks: Vec<(Vec<usize>, usize)>,
+}
+
+impl Room {
+    /// The interlock that keeps a tool from doing anything now.
+    pub(crate) fn interlock_of(&self, tool: usize) -> Option<&(Vec<usize>, usize)> {
+        let mut interlocks = self.quirks.interlocks.iter();
+        interlocks.find(|(tools, loaded)| tools.contains(&tool) && !self.stations[*loaded].content.is_empty())
+    }
+
+    /// Whether the item is an exception to what the tool does.
+    pub(crate) fn is_exception(&self, tool: usize, item: &Item) -> bool {
+        self.quirks.exceptions.contains(&(item.kind, self.stations[tool].kind))
+    }
+}
