@@ -111,6 +111,12 @@ impl Room {
         tool.map(|tool| tool.broken = true).is_some()
     }
 
+    /// Mends a broken tool. False if there is no such tool.
+    pub fn mend_tool(&mut self, name: &str) -> bool {
+        let tool = self.stations.iter_mut().find(|s| s.name == *name && s.kind.process().is_some());
+        tool.map(|tool| tool.broken = false).is_some()
+    }
+
     pub(crate) fn find(&self, name: &str) -> Option<Which> {
         if self.agent.name == *name {
             return Some(Which::Agent);

@@ -15,6 +15,7 @@ mod growth;
 mod hierarchy;
 mod json;
 mod learned;
+mod lifelong;
 mod limits;
 mod published;
 pub mod report;
@@ -39,6 +40,10 @@ pub use growth::{
 };
 pub use hierarchy::{ParameterRow, TypeHierarchy, TypeRow};
 pub use learned::{dataset_of, kitchen_model, learned_from};
+pub use lifelong::{
+    Agent, AgentSummary, FailedStep, Goal, LifeRecord, LifeRun, LifelongOptions, LifelongResult, OtherEffect,
+    TaskRecord, TrueCause, lifelong_experiment,
+};
 pub use limits::{Limits, Stopper};
 pub use published::{Demonstrations, Learning, Published, PublishedCell, Table, published};
 pub use run_log::{FILE_NAME, FORMAT, Header, RunLog};

@@ -1,9 +1,10 @@
-//! `typelift lab`: the paper's experiments, run again.
+//! `typelift lab`: the paper's experiments, run again, and what is learned along a life.
 
 mod demonstrations;
 mod faults;
 mod growth;
 mod hierarchy;
+mod lifelong;
 mod options;
 mod progress;
 mod report;
@@ -16,10 +17,11 @@ use demonstrations::LabDemonstrations;
 use faults::LabFaults;
 use growth::{LabGrowth, LabMeasure};
 use hierarchy::LabHierarchy;
+use lifelong::LabLifelong;
 use report::LabReport;
 use table::LabTable;
 
-/// Run the paper's experiments again, and compare with the published numbers
+/// Run the paper's experiments again, and measure what is learned along a life
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example:
   typelift lab table --quick -o T
@@ -40,6 +42,7 @@ enum Command {
     Faults(LabFaults),
     Hierarchy(LabHierarchy),
     Growth(LabGrowth),
+    Lifelong(LabLifelong),
     Report(LabReport),
     #[command(hide = true)]
     Measure(LabMeasure),
@@ -53,6 +56,7 @@ impl Lab {
             Command::Faults(faults) => faults.run(clock, quiet),
             Command::Hierarchy(hierarchy) => hierarchy.run(quiet),
             Command::Growth(growth) => growth.run(clock, quiet),
+            Command::Lifelong(lifelong) => lifelong.run(clock, quiet),
             Command::Report(report) => report.run(quiet),
             Command::Measure(measure) => measure.run(),
         }

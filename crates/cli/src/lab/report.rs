@@ -7,8 +7,8 @@ use std::path::Path;
 use typelift::world::{FileError, write_file};
 use typelift_lab::report::{Environment, Judged, Results, judge, report_page};
 use typelift_lab::{
-    DemonstrationsOptions, FaultsOptions, LabError, RunnerOptions, TableOptions, TypeHierarchy,
-    demonstrations_experiment, faults_experiment, table,
+    DemonstrationsOptions, FaultsOptions, LabError, LifelongOptions, RunnerOptions, TableOptions, TypeHierarchy,
+    demonstrations_experiment, faults_experiment, lifelong_experiment, table,
 };
 
 use super::growth::{GrowthLimits, growth};
@@ -24,8 +24,8 @@ use crate::style::{BAD, DIM, GOOD, HEAD, wrapped};
   typelift lab report --quick -o Q
 
 Reads what the other experiments wrote to DIR/table, DIR/demonstrations,
-DIR/faults, DIR/hierarchy and DIR/growth, or to DIR itself, and writes
-DIR/report.html, which needs no network and no other file.")]
+DIR/faults, DIR/hierarchy, DIR/growth and DIR/lifelong, or to DIR itself, and
+writes DIR/report.html, which needs no network and no other file.")]
 pub(super) struct LabReport {
     #[command(flatten)]
     results: ResultOptions,
@@ -81,6 +81,10 @@ fn quick(experiment: &str, runner: &RunnerOptions<'_>) -> Result<(), LabError> {
         "faults" => {
             let options = FaultsOptions { runs: 1, quick: true, ..FaultsOptions::default() };
             faults_experiment(&options, runner).map(drop)
+        }
+        "lifelong" => {
+            let options = LifelongOptions { runs: 1, tasks: LifelongOptions::QUICK, ..LifelongOptions::default() };
+            lifelong_experiment(&options, runner).map(drop)
         }
         "growth" => growth(true, GrowthLimits::default(), runner).map(drop),
         _ => {

@@ -36,6 +36,7 @@ fn every_command_has_help() {
         "lab faults",
         "lab hierarchy",
         "lab growth",
+        "lab lifelong",
         "lab report",
         "completions",
         "man",

@@ -86,6 +86,26 @@ fn quick_faults() {
 }
 
 #[test]
+fn a_short_life() {
+    let folder = Folder::new();
+    let command = "lab lifelong --runs 1 --tasks 4 --explain -o L";
+    let ended = folder.run(command);
+    ended.succeeds();
+    insta::assert_snapshot!("lab-lifelong", ended.out);
+    let files = ["failed.csv", "lifelong.csv", "lifelong.json", "lifelong.md", "runs.jsonl"];
+    assert_eq!(names(&folder.path("L")), files);
+    let csv = folder.read("L/lifelong.csv");
+    let rows = rows(&csv);
+    assert_eq!(rows.len(), 4 * 4);
+    let failed: usize = rows.iter().filter_map(|row| row.last()?.parse::<usize>().ok()).sum();
+    assert_eq!(folder.read("L/failed.csv").lines().count(), 1 + failed, "a row a failed step");
+    let again = folder.run(command);
+    assert!(again.err.starts_with("0 runs, 4 were finished before\n"), "{again}");
+    assert_eq!(again.out, ended.out);
+    folder.refuses(36, "lab lifelong --agent nobody -o N");
+}
+
+#[test]
 fn runs_that_are_finished_are_kept_and_extended() {
     let folder = Folder::new();
     folder.run(&format!("{TABLE} -o T")).succeeds();

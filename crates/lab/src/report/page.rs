@@ -85,6 +85,9 @@ fn machine(environment: &Environment, results: &Results) -> String {
     if let Some(faults) = &results.faults {
         seeds.push(format!("faults {} to {}", faults.seed, faults.seed + faults.runs.saturating_sub(1)));
     }
+    if let Some(lifelong) = &results.lifelong {
+        seeds.push(format!("lifelong {} to {}", lifelong.seed, lifelong.seed + lifelong.runs.saturating_sub(1)));
+    }
     if results.growth.is_some() {
         seeds.push("growth 0".to_owned());
     }

@@ -2,6 +2,7 @@
 //!
 //! Each is looked for in the report's folder, and in the folder of the experiment's name below it.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
@@ -10,6 +11,7 @@ use typelift::world::{FileError, read_text};
 
 use crate::growth::GrowthResult;
 use crate::hierarchy::TypeHierarchy;
+use crate::lifelong::Goal;
 use crate::variant::Variant;
 
 /// All results that are there.
@@ -25,6 +27,8 @@ pub struct Results {
     pub hierarchy: Option<TypeHierarchy>,
     /// Growth.
     pub growth: Option<GrowthResult>,
+    /// Learning along a life.
+    pub lifelong: Option<Lifelong>,
 }
 
 /// `table.json`.
@@ -180,13 +184,48 @@ pub struct Scenario {
     pub repeated_mistakes: u64,
 }
 
+/// `lifelong.json`.
+#[derive(Debug, Deserialize)]
+pub struct Lifelong {
+    /// Lives of each agent.
+    pub runs: u64,
+    /// The seed of the first.
+    pub seed: u64,
+    /// Tasks of a life.
+    pub tasks: usize,
+    /// Tasks of each part of a life that is looked at apart.
+    pub window: usize,
+    /// The agents.
+    pub agents: Vec<LifeOf>,
+    /// What was to be reached.
+    pub goals: Vec<Goal>,
+}
+
+/// The lives of an agent.
+#[derive(Debug, Clone, Deserialize)]
+pub struct LifeOf {
+    /// The agent.
+    pub agent: String,
+    /// Tasks.
+    pub tasks: u64,
+    /// Tasks that were solved.
+    pub solved: u64,
+    /// Plans a task.
+    pub proposals: f64,
+    /// Failed steps a task, in successive parts of a life.
+    pub failed_over_time: Vec<f64>,
+    /// Failed steps by their true cause: in the first part, in the last part, and in all.
+    pub causes: BTreeMap<String, [u64; 3]>,
+}
+
 /// An experiment that a report shows, with the file that it reads.
-pub const EXPERIMENTS: [(&str, &str); 5] = [
+pub const EXPERIMENTS: [(&str, &str); 6] = [
     ("table", "table.json"),
     ("demonstrations", "demonstrations.json"),
     ("faults", "faults.json"),
     ("hierarchy", "hierarchy.json"),
     ("growth", "growth.json"),
+    ("lifelong", "lifelong.json"),
 ];
 
 impl Results {
@@ -202,6 +241,7 @@ impl Results {
             faults: read(path(2))?,
             hierarchy: read(path(3))?,
             growth: read(path(4))?,
+            lifelong: read(path(5))?,
         })
     }
 
@@ -213,6 +253,7 @@ impl Results {
             self.faults.is_some(),
             self.hierarchy.is_some(),
             self.growth.is_some(),
+            self.lifelong.is_some(),
         ];
         EXPERIMENTS.iter().zip(there).filter(|(_, there)| !there).map(|((name, _), _)| *name).collect()
     }

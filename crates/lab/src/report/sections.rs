@@ -1,7 +1,7 @@
 //! The sections of the report, each from the results of one experiment.
 
 use super::html::{figures, paragraph, table, wide_figure};
-use super::results::{Cell, Demonstrations, Faults, Results, Table};
+use super::results::{Cell, Demonstrations, Faults, Lifelong, Results, Table};
 use crate::figure::{Column, Violins, violin};
 use crate::growth::GrowthResult;
 use crate::hierarchy::TypeHierarchy;
@@ -15,6 +15,7 @@ pub(super) fn sections(results: &Results) -> Vec<(&'static str, &'static str, Op
         ("faults", "Broken tools and exceptions", results.faults.as_ref().map(of_faults)),
         ("hierarchy", "The hierarchy", results.hierarchy.as_ref().map(of_hierarchy)),
         ("growth", "Growth", results.growth.as_ref().map(of_growth)),
+        ("lifelong", "Learning along a life", results.lifelong.as_ref().map(of_lifelong)),
     ]
 }
 
@@ -158,4 +159,43 @@ fn of_growth(result: &GrowthResult) -> String {
     let rows: Vec<Vec<String>> = result.fits.iter().map(row).collect();
     html += &table("", &["series", "quantity", "exponent", "R²", "points"], &[2, 3, 4], &rows);
     html
+}
+
+fn of_lifelong(result: &Lifelong) -> String {
+    let Lifelong { tasks, window, agents, goals, .. } = result;
+    let mut html = paragraph(&format!(
+        "{} of {tasks} tasks, from seed {} on, in a kitchen in which tools break and are mended, foods do not go with tools, \
+         and one rule is hidden. Failed steps a task, retries included, in successive parts of {window} tasks.",
+        if result.runs == 1 { "1 life".to_owned() } else { format!("{} lives", result.runs) },
+        result.seed
+    ));
+    let parts = agents.first().map(|agent| agent.failed_over_time.len()).unwrap_or_default();
+    let ends: Vec<String> = (1..=parts).map(|part| format!("to {}", (part * window).min(*tasks))).collect();
+    let head: Vec<&str> =
+        ["agent", "solved", "plans a task"].into_iter().chain(ends.iter().map(String::as_str)).collect();
+    let numbers: Vec<usize> = (1..head.len()).collect();
+    let rows: Vec<Vec<String>> = agents
+        .iter()
+        .map(|agent| {
+            let solved = format!("{} of {}", agent.solved, agent.tasks);
+            let failed = agent.failed_over_time.iter().map(|failed| number(*failed));
+            [agent.agent.clone(), solved, number(agent.proposals)].into_iter().chain(failed).collect()
+        })
+        .collect();
+    html += &table("", &head, &numbers, &rows);
+    html += &paragraph("Failed steps by their true cause, in the first part, in the last part, and in all.");
+    let causes = agents.iter().flat_map(|agent| agent.causes.iter().map(move |(cause, counts)| (agent, cause, counts)));
+    let rows: Vec<Vec<String>> = causes
+        .map(|(agent, cause, counts)| {
+            let counts = counts.iter().map(u64::to_string);
+            [agent.agent.clone(), cause.clone()].into_iter().chain(counts).collect()
+        })
+        .collect();
+    html += &table("", &["agent", "cause", "first", "last", "all"], &[2, 3, 4], &rows);
+    let goal = |goal: &crate::lifelong::Goal| {
+        let met = if goal.met() { "yes" } else { "no" };
+        vec![goal.what.clone(), format!("{:.3}", goal.at_most), format!("{:.3}", goal.reached), met.to_owned()]
+    };
+    let rows: Vec<Vec<String>> = goals.iter().map(goal).collect();
+    html + &table("", &["what was to be reached", "at most", "is", "reached"], &[1, 2], &rows)
 }
