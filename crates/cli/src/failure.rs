@@ -113,13 +113,14 @@ impl From<MemoryError> for Failure {
             }
             MemoryErrorKind::NotAMemory | MemoryErrorKind::Exists => Some("Name another file."),
             MemoryErrorKind::Version { .. } => Some("Use the typelift that wrote it."),
-            MemoryErrorKind::Busy => Some("Try again when it has ended."),
-            MemoryErrorKind::Damaged(_) => Some("`typelift memory check FILE` says what of it can be read."),
+            MemoryErrorKind::Damaged(_) => Some(
+                "`typelift memory check FILE` says what is wrong; `typelift memory rescue` saves what can be read.",
+            ),
             MemoryErrorKind::Disagrees { .. } => {
                 Some("A memory is of one hierarchy and one way of reading scenes: begin another one for this model.")
             }
             MemoryErrorKind::Compact { .. } => Some("Learn it anew from its traces, without `--compact`."),
-            _ => None,
+            kind => kind.hint(),
         };
         Self { hint: hint.map(str::to_owned), ..Self::bad_input(error) }
     }

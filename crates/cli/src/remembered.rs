@@ -108,7 +108,6 @@ impl Remembered {
 /// Says which parts of a memory nothing is learned from.
 pub(crate) fn warn_unread(memory: &Memory) {
     for unread in memory.unread() {
-        let (file, entry, why) = (memory.file().display(), unread.entry, &unread.why);
-        anstream::eprintln!("{WARNING}warning{WARNING:#}: {file}: nothing is learned from entry {entry}: {why}");
+        anstream::eprintln!("{WARNING}warning{WARNING:#}: {}: {unread}", memory.file().display());
     }
 }

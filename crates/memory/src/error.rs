@@ -50,6 +50,9 @@ pub enum MemoryErrorKind {
     /// There is no room left.
     #[error("the disk is full")]
     DiskFull,
+    /// The system does not read or write it, though it is open.
+    #[error("it cannot be read or written: {0}")]
+    Failing(String),
     /// Something in it is not as it was written.
     #[error("it is damaged: {0}")]
     Damaged(String),
@@ -84,6 +87,19 @@ pub enum MemoryErrorKind {
 }
 
 impl MemoryErrorKind {
+    /// What to do about it, where the system stands in the way.
+    pub fn hint(&self) -> Option<&'static str> {
+        match self {
+            Self::Busy => Some("Try again when it has ended."),
+            Self::ReadOnly => Some("Let it be written, or copy it to where it can be; what only reads it can go on."),
+            Self::DiskFull => Some("Make room and go on: what was kept until then is there."),
+            Self::Failing(_) => {
+                Some("Is there room on the disk, and may the file grow? What was kept until then is there.")
+            }
+            _ => None,
+        }
+    }
+
     pub(crate) fn of(self, file: &Path) -> MemoryError {
         MemoryError { file: file.to_owned(), kind: self }
     }
@@ -91,14 +107,18 @@ impl MemoryErrorKind {
 
 impl From<rusqlite::Error> for MemoryErrorKind {
     fn from(error: rusqlite::Error) -> Self {
+        // A page that ends before its end.
+        const SHORT_READ: i32 = 522;
         match error.sqlite_error_code() {
+            Some(ErrorCode::SystemIoFailure) if error.sqlite_error().is_some_and(|e| e.extended_code == SHORT_READ) => {
+                Self::Damaged(error.to_string())
+            }
             Some(ErrorCode::NotADatabase) => Self::NotAMemory,
             Some(ErrorCode::DatabaseBusy | ErrorCode::DatabaseLocked) => Self::Busy,
             Some(ErrorCode::ReadOnly) => Self::ReadOnly,
             Some(ErrorCode::DiskFull) => Self::DiskFull,
-            Some(ErrorCode::CannotOpen | ErrorCode::PermissionDenied | ErrorCode::SystemIoFailure) => {
-                Self::CannotOpen(error.to_string())
-            }
+            Some(ErrorCode::CannotOpen | ErrorCode::PermissionDenied) => Self::CannotOpen(error.to_string()),
+            Some(ErrorCode::SystemIoFailure) => Self::Failing(error.to_string()),
             _ => Self::Damaged(error.to_string()),
         }
     }
@@ -125,6 +145,7 @@ impl From<LearnError> for MemoryErrorKind {
 
 impl From<MemoryError> for FileError {
     fn from(error: MemoryError) -> Self {
-        Self::new(&error.file, error.kind.to_string())
+        let told = Self::new(&error.file, error.kind.to_string());
+        error.kind.hint().into_iter().fold(told, |told, hint| told.with_hint(hint.to_owned()))
     }
 }

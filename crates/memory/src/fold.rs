@@ -6,12 +6,13 @@
 //! an entry, and only what came after is added.
 
 use std::collections::BTreeSet;
+use std::fmt;
 use std::path::Path;
 
 use rusqlite::{Connection, OptionalExtension};
 use typelift_learn::observe_trace;
 use typelift_model::{Evidence, LearnedModel, SourceId};
-use typelift_world::{FileError, Parser, Trace, TraceReader, trace_from};
+use typelift_world::{FileError, Parser, Trace, TraceReader, source_of, trace_from};
 
 use crate::error::MemoryErrorKind;
 use crate::log::{self, Kind, Wanted, list, trace_name, trace_text};
@@ -26,13 +27,23 @@ pub(crate) struct Fold {
     pub(crate) evidence: Evidence,
 }
 
-/// Something in a memory that nothing is learned from, since it is not as a trace must be.
+/// Something in a memory that nothing is learned from, or not all of it, since it is not as a trace must be.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Unread {
     /// The entry with which the episode began, or that holds a model's evidence.
     pub entry: i64,
     /// What is wrong.
     pub why: String,
+    /// Whether what was before that counts.
+    pub partly: bool,
+}
+
+impl fmt::Display for Unread {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { entry, why, partly } = self;
+        let learned = if *partly { "not all is learned" } else { "nothing is learned" };
+        write!(f, "{learned} from entry {entry}: {why}")
+    }
 }
 
 /// Everything that the log says now.
@@ -67,12 +78,13 @@ impl Fold {
                 continue;
             }
             let log::Ended { source, .. } = entry.content()?;
-            match episode_evidence(connection, episode, basis)? {
-                Ok((found, _)) if found != source => {
-                    unread.push(Unread { entry: episode, why: "its trace is not as it was written".to_owned() });
-                }
-                Ok((_, evidence)) => self.add(episode, &evidence, &mut unread),
-                Err(error) => unread.push(Unread { entry: episode, why: error.to_string() }),
+            let shown = episode_evidence(connection, episode, basis)?;
+            if shown.source == source {
+                self.add(episode, &shown.evidence, &mut unread);
+                unread.extend(shown.unread);
+            } else {
+                let why = "its trace is not as it was written".to_owned();
+                unread.push(Unread { entry: episode, why, partly: false });
             }
         }
         self.up_to = last;
@@ -81,17 +93,16 @@ impl Fold {
             if taken_back.iter().any(|(number, _)| *number == episode) {
                 continue;
             }
-            match episode_evidence(connection, episode, basis)? {
-                Ok((_, evidence)) => sum.add(episode, &evidence, &mut unread),
-                Err(error) => unread.push(Unread { entry: episode, why: error.to_string() }),
-            }
+            let shown = episode_evidence(connection, episode, basis)?;
+            sum.add(episode, &shown.evidence, &mut unread);
+            unread.extend(shown.unread);
         }
         Ok(Sum { evidence: sum.evidence, unread })
     }
 
     fn add(&mut self, entry: i64, evidence: &Evidence, unread: &mut Vec<Unread>) {
         if let Err(error) = self.evidence.merge(evidence) {
-            unread.push(Unread { entry, why: error.to_string() });
+            unread.push(Unread { entry, why: error.to_string(), partly: false });
         }
     }
 }
@@ -126,33 +137,44 @@ pub(crate) fn under_way(connection: &Connection) -> Result<Vec<i64>, MemoryError
     Ok(numbers.collect::<Result<_, _>>()?)
 }
 
-/// An episode as a trace, or why it is none.
-pub(crate) fn episode_trace(
-    connection: &Connection,
-    episode: i64,
-    basis: &LearnedModel,
-) -> Result<Result<Trace, FileError>, MemoryErrorKind> {
-    let text = trace_text(connection, episode)?;
+fn read_trace(text: &str, episode: i64, basis: &LearnedModel) -> Result<Trace, FileError> {
     let mut parser = Parser::new(basis.model.hierarchy.clone(), basis.parse.clone());
     let place = format!("episode {episode}");
-    let read = TraceReader::new(Path::new(&place), text.as_bytes());
-    Ok(read.and_then(|reader| trace_from(Path::new(&place), reader, &mut parser)).map(|mut trace| {
-        trace.file = Some(trace_name(&trace));
-        trace
-    }))
+    let reader = TraceReader::new(Path::new(&place), text.as_bytes())?;
+    let mut trace = trace_from(Path::new(&place), reader, &mut parser)?;
+    trace.file = Some(trace_name(&trace));
+    Ok(trace)
 }
 
-/// What an episode shows, as the one source that it is; or why it is not a trace.
-fn episode_evidence(
-    connection: &Connection,
-    episode: i64,
-    basis: &LearnedModel,
-) -> Result<Result<(SourceId, Evidence), FileError>, MemoryErrorKind> {
+/// What an episode shows, as the one source that it is.
+struct Shown {
+    source: SourceId,
+    evidence: Evidence,
+    /// Why not all of it is learned from, if so.
+    unread: Option<Unread>,
+}
+
+fn episode_evidence(connection: &Connection, episode: i64, basis: &LearnedModel) -> Result<Shown, MemoryErrorKind> {
+    let text = trace_text(connection, episode)?;
+    let source = source_of(text.as_bytes());
+    let (trace, unread) = match read_trace(&text, episode, basis) {
+        Ok(trace) => (Some(trace), None),
+        Err(error) => {
+            let before = read_trace(before(&text, error.line), episode, basis).ok();
+            let unread = Unread { entry: episode, why: error.to_string(), partly: before.is_some() };
+            (before, Some(unread))
+        }
+    };
     let hierarchy = &basis.model.hierarchy;
-    Ok(episode_trace(connection, episode, basis)?.map(|trace| {
-        let (id, name) = (trace.source_id(hierarchy), trace_name(&trace));
-        (id, [(id, name, observe_trace(&trace, hierarchy))].into_iter().collect())
-    }))
+    let shown = trace.map(|trace| (source, trace_name(&trace), observe_trace(&trace, hierarchy)));
+    Ok(Shown { source, evidence: shown.into_iter().collect(), unread })
+}
+
+/// A trace up to the last state before a line, from 1: there are states in every other line.
+fn before(text: &str, line: Option<u32>) -> &str {
+    let lines = line.unwrap_or_default().saturating_sub(1) / 2 * 2;
+    let end = text.match_indices('\n').nth((lines as usize).saturating_sub(1)).map_or(0, |(at, _)| at + 1);
+    &text[..end]
 }
 
 /// The sum that the file keeps, with what was learned from it, if this program made it.

@@ -10,6 +10,8 @@ use std::time::Duration;
 
 use rusqlite::{Connection, OpenFlags, TransactionBehavior};
 
+use tempfile::TempDir;
+
 use crate::error::MemoryErrorKind;
 use crate::version::VERSION;
 
@@ -70,7 +72,9 @@ pub(crate) fn open(path: &Path, access: Access) -> Result<Connection, MemoryErro
     // What may be written is opened so even to be read: else the files beside it would stay.
     let mut connection = connect(path, OpenFlags::SQLITE_OPEN_READ_WRITE)?;
     let is_there = match is_memory(&connection) {
-        Err(MemoryErrorKind::CannotOpen(_)) if access == Access::Read && !write_ahead_log(path).exists() => {
+        Err(MemoryErrorKind::CannotOpen(_) | MemoryErrorKind::ReadOnly)
+            if access == Access::Read && !write_ahead_log(path).exists() =>
+        {
             connection = connect_immutable(path)?;
             is_memory(&connection)?
         }
@@ -142,10 +146,37 @@ pub(crate) fn basis(connection: &Connection) -> Result<String, MemoryErrorKind> 
 }
 
 /// The file beside a memory that holds what was written last, as long as it is open or after the program was killed.
-fn write_ahead_log(path: &Path) -> PathBuf {
+pub(crate) fn write_ahead_log(path: &Path) -> PathBuf {
     let mut name = path.as_os_str().to_owned();
     name.push("-wal");
     name.into()
+}
+
+/// A damaged memory, to read what can be read: nothing in it changes. What was written last is read too, from a copy of both
+/// files, which is gone when the folder is dropped.
+pub(crate) fn open_damaged(path: &Path) -> Result<(Connection, Option<TempDir>), MemoryErrorKind> {
+    if !looks_like_memory(path) {
+        return Err(if path.is_file() { MemoryErrorKind::NotAMemory } else { MemoryErrorKind::Missing });
+    }
+    let log = write_ahead_log(path);
+    let (connection, folder) = if log.exists() {
+        let unreadable = |error: std::io::Error| MemoryErrorKind::CannotOpen(error.to_string());
+        let folder = tempfile::tempdir().map_err(unreadable)?;
+        let copy = folder.path().join("memory");
+        std::fs::copy(path, &copy).map_err(unreadable)?;
+        std::fs::copy(log, write_ahead_log(&copy)).map_err(unreadable)?;
+        (connect(&copy, OpenFlags::SQLITE_OPEN_READ_WRITE)?, Some(folder))
+    } else {
+        (connect_immutable(path)?, None)
+    };
+    // Else a file that was cut off is not even looked into.
+    connection.pragma_update(None, "writable_schema", true)?;
+    let number = |pragma| connection.pragma_query_value(None, pragma, |row| row.get::<_, i64>(0));
+    match (number("application_id")?, number("user_version")?) {
+        (APPLICATION, VERSION) => Ok((connection, folder)),
+        (APPLICATION, found) => Err(MemoryErrorKind::Version { found }),
+        _ => Err(MemoryErrorKind::NotAMemory),
+    }
 }
 
 /// Opens what lies where nothing can be written, not even beside it, so that nobody else can write it.

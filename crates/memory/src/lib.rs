@@ -17,6 +17,8 @@ mod log;
 mod logged;
 mod memory;
 mod merge;
+mod rescue;
+mod salvage;
 mod scene_change;
 mod version;
 
@@ -28,4 +30,5 @@ pub use format::{Access, looks_like_memory};
 pub use logged::{Logged, What};
 pub use memory::Memory;
 pub use merge::{Merged, merge};
+pub use rescue::{Rescued, rescue};
 pub use version::VERSION;

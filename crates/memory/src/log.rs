@@ -101,7 +101,7 @@ impl Entry {
             .map_err(|error| MemoryErrorKind::Damaged(format!("entry {}: {error}", self.number)))
     }
 
-    fn read(row: &Row<'_>) -> rusqlite::Result<Self> {
+    pub(crate) fn read(row: &Row<'_>) -> rusqlite::Result<Self> {
         let word: String = row.get(2)?;
         let unknown = || rusqlite::Error::FromSqlConversionFailure(2, Type::Text, format!("no kind `{word}`").into());
         let kind = Kind::ALL.into_iter().find(|kind| kind.word() == word).ok_or_else(unknown)?;
@@ -131,8 +131,6 @@ pub(crate) enum Wanted {
     Of(Kind),
     /// Later ones of a kind.
     After(Kind, i64),
-    /// The one of this number, if there is one.
-    Number(i64),
     /// The beginning of an episode, its steps and its end.
     Episode(i64),
 }
@@ -147,7 +145,6 @@ pub(crate) fn entries(
         Wanted::All => ("?1 = ?2", [&0, &0]),
         Wanted::Of(kind) => ("kind = ?1 AND ?2 = 0", [&kind.word(), &0]),
         Wanted::After(kind, number) => ("kind = ?1 AND number > ?2", [&kind.word(), number]),
-        Wanted::Number(number) => ("number = ?1 AND ?2 = 0", [number, &0]),
         Wanted::Episode(number) => ("number = ?1 OR episode = ?2", [number, number]),
     };
     let query = format!("SELECT number, written, kind, episode, content FROM log WHERE {condition} ORDER BY number");
@@ -176,9 +173,22 @@ pub(crate) fn last(connection: &Connection) -> Result<i64, MemoryErrorKind> {
 
 /// The trace of an episode: byte by byte as a recorder would have written it.
 pub(crate) fn trace_text(connection: &Connection, episode: i64) -> Result<String, MemoryErrorKind> {
-    let (mut text, mut scene) = (String::new(), None::<Scene>);
-    entries(connection, Wanted::Episode(episode), |entry| {
-        let (line, next) = match (entry.kind, scene.take()) {
+    let mut writer = TraceWriter::default();
+    entries(connection, Wanted::Episode(episode), |entry| writer.add(&entry))?;
+    Ok(writer.text)
+}
+
+/// Makes a trace of an episode's entries.
+#[derive(Default)]
+pub(crate) struct TraceWriter {
+    pub(crate) text: String,
+    scene: Option<Scene>,
+}
+
+impl TraceWriter {
+    /// Adds the next entry of the episode. After an error nothing more is to be added.
+    pub(crate) fn add(&mut self, entry: &Entry) -> Result<(), MemoryErrorKind> {
+        let (line, next) = match (entry.kind, self.scene.take()) {
             (Kind::Begun, None) => {
                 let Begun { header, scene, .. } = entry.content()?;
                 (header, scene)
@@ -188,19 +198,18 @@ pub(crate) fn trace_text(connection: &Connection, episode: i64) -> Result<String
                 (action, change.of(before)?)
             }
             (Kind::Ended, before) => {
-                scene = before;
+                self.scene = before;
                 return Ok(());
             }
             _ => return Err(MemoryErrorKind::Damaged(format!("entry {} is out of turn", entry.number))),
         };
-        text.push_str(line.get());
-        text.push('\n');
-        text.push_str(&serde_json::to_string(&TraceLine::from(&next))?);
-        text.push('\n');
-        scene = Some(next);
+        self.text.push_str(line.get());
+        self.text.push('\n');
+        self.text.push_str(&serde_json::to_string(&TraceLine::from(&next))?);
+        self.text.push('\n');
+        self.scene = Some(next);
         Ok(())
-    })?;
-    Ok(text)
+    }
 }
 
 /// The name of an episode as a source: that of the file in which a recorder writes it.

@@ -6,11 +6,11 @@ use rusqlite::{Connection, TransactionBehavior, params};
 use serde_json::value::RawValue;
 use typelift_learn::learn_evidence;
 use typelift_model::{ActionModel, Evidence, LearnedModel, ParseConfig, SourceId, Symbol};
-use typelift_world::TraceHeader;
+use typelift_world::{TraceHeader, source_of};
 
 use crate::episode::EpisodeLog;
 use crate::error::{MemoryError, MemoryErrorKind};
-use crate::fold::{Fold, PROGRAM, Sum, Unread, episode_trace, kept_fold, taken_back, under_way};
+use crate::fold::{Fold, PROGRAM, Sum, Unread, kept_fold, taken_back, under_way};
 use crate::format::{self, Access};
 use crate::log::{self, Kind, Wanted, append, list, trace_text};
 use crate::logged::{Logged, logged};
@@ -108,7 +108,11 @@ impl Memory {
             self.learned = learned_from(evidence, &self.basis)?;
         }
         if self.access == Access::Write && self.fold.up_to > self.kept_up_to + self.kept_up_to / KEPT_SHARE {
-            self.keep_fold()?;
+            match self.keep_fold() {
+                // It can be summed up again.
+                Err(MemoryErrorKind::DiskFull | MemoryErrorKind::Failing(_)) => {}
+                kept => kept?,
+            }
         }
         Ok(())
     }
@@ -219,8 +223,7 @@ impl Memory {
             }
         }
         for episode in under_way(&transaction)? {
-            let trace = episode_trace(&transaction, episode, &self.basis)?;
-            if trace.is_ok_and(|trace| trace.source_id(&self.basis.model.hierarchy) == source) {
+            if source_of(trace_text(&transaction, episode)?.as_bytes()) == source {
                 entries.push(episode);
             }
         }
@@ -293,7 +296,7 @@ fn check_addable(model: &LearnedModel, name: &str) -> Result<(), MemoryErrorKind
 }
 
 /// What of a model does not follow from its evidence.
-fn basis_of(model: &LearnedModel) -> LearnedModel {
+pub(crate) fn basis_of(model: &LearnedModel) -> LearnedModel {
     let LearnedModel { model, domain, declared_predicates, parse, options, .. } = model;
     let (hierarchy, constants) = (model.hierarchy.clone(), model.constants.clone());
     let mut basis = LearnedModel {

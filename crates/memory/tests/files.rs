@@ -8,9 +8,9 @@ use std::path::Path;
 use common::{act, bytes, empty, header, hierarchy, learned, record, remember, reopened};
 use rusqlite::Connection;
 use typelift_learn::{Options, learn_dataset};
-use typelift_memory::{Access, Memory, MemoryErrorKind};
+use typelift_memory::{Access, Logged, Memory, MemoryErrorKind, What, merge};
 use typelift_model::Hierarchy;
-use typelift_world::Dataset;
+use typelift_world::{Dataset, RecordSink};
 
 fn kind(path: &Path, access: Access) -> MemoryErrorKind {
     Memory::open(path, access).expect_err("it is none").kind
@@ -145,6 +145,55 @@ fn one_that_is_being_written_to_can_be_read_and_not_written() {
     assert!(error.to_string().ends_with("m: another program is writing to it"), "{error}");
     writer.execute_batch("ROLLBACK").expect("it is done");
     act(&mut episode, "lamp", 1);
+}
+
+#[test]
+fn clocks_that_go_backwards_change_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut memory = empty(folder.path(), "m");
+    for (task, ty) in [("a", "lamp"), ("b", "candle"), ("c", "lamp")] {
+        remember(&mut memory, task, ty, 2);
+    }
+    let (before, entries) = (bytes(&memory), memory.entries().expect("entries"));
+    let database = Connection::open(memory.file()).expect("a database");
+    let change = "DROP TRIGGER log_stays; DELETE FROM fold; \
+                  UPDATE log SET written = strftime('%Y-%m-%dT%H:%M:%SZ', 1000000000 - number * 1000, 'unixepoch')";
+    database.execute_batch(change).expect("changed");
+    let found = reopened(&memory);
+    assert_eq!(bytes(&found), before);
+    let what = |entries: Vec<Logged>| entries.into_iter().map(|entry| (entry.number, entry.what)).collect::<Vec<_>>();
+    assert_eq!(what(found.entries().expect("entries")), what(entries.clone()));
+    // Together with another one each keeps its order.
+    let mut other = empty(folder.path(), "other");
+    remember(&mut other, "d", "candle", 1);
+    let into = folder.path().join("both");
+    merge(&[memory.file(), other.file()], &into).expect("one");
+    let both = Memory::open(&into, Access::Read).expect("a memory");
+    assert_eq!(both.unread(), []);
+    let of_first = both.entries().expect("entries").into_iter().map(|entry| entry.what);
+    let of_first: Vec<What> = of_first.filter(|what| entries.iter().any(|entry| entry.what == *what)).collect();
+    assert!(entries.iter().map(|entry| &entry.what).eq(of_first.iter().take(entries.len())));
+}
+
+#[test]
+fn a_thing_may_be_of_another_type_later() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut memory = empty(folder.path(), "m");
+    remember(&mut memory, "a", "lamp", 1);
+    remember(&mut memory, "b", "candle", 1);
+    let mut episode = memory.episode(header("c"));
+    act(&mut episode, "lamp", 1);
+    // Within an episode what was before that counts.
+    RecordSink::step(&mut episode, &common::action("light"), &common::scene("candle", true)).expect("kept");
+    episode.end("solved").expect("kept");
+    memory.refresh().expect("learned");
+    let said: Vec<String> = memory.unread().iter().map(ToString::to_string).collect();
+    let expected = "not all is learned from entry 9: episode 9:8: \
+                    entity one is of type `candle` here and of type `lamp` in line 2";
+    assert_eq!(said, [expected]);
+    assert_eq!(bytes(&reopened(&memory)), bytes(&memory));
+    let transitions: Vec<u64> = memory.learned().evidence.sources().values().map(|source| source.transitions).collect();
+    assert_eq!(transitions, [2, 2, 2]);
 }
 
 #[test]

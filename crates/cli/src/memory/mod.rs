@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use typelift::model::SourceId;
 use typelift::words::count;
-use typelift_memory::{Access, Memory, Merged, What, check, merge};
+use typelift_memory::{Access, Memory, Merged, Rescued, What, check, merge, rescue};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -83,6 +83,19 @@ Exit codes: 0 all is well, 12 something is not, 31 nothing can be read.")]
         /// The memory
         file: PathBuf,
     },
+    /// Save what can be read of a damaged memory to a new one, and say what is lost
+    #[command(after_help = "Example:
+  typelift memory rescue robot.memory -o saved.memory
+
+The damaged memory stays as it is. What was taken back where entries are lost is
+known again.")]
+    Rescue {
+        /// The damaged memory
+        file: PathBuf,
+        /// The new memory
+        #[arg(long, short, value_name = "FILE")]
+        output: PathBuf,
+    },
     /// Take demonstrations or episodes back: the model is as if they had never been
     #[command(after_help = "Examples:
   typelift memory forget robot.memory 3f9a01c2
@@ -108,6 +121,7 @@ impl MemoryCommand {
             }
             Command::Merge { files, output } => merge_into(files, output, quiet),
             Command::Check { file } => report(file),
+            Command::Rescue { file, output } => save(file, output, quiet),
             Command::Forget { file, sources } => forget(file, sources, quiet),
         }
     }
@@ -155,6 +169,24 @@ fn merge_into(files: &[PathBuf], output: &Path, quiet: bool) -> Result<Exit, Fai
 
 fn entries_said(number: u64) -> String {
     if number == 1 { "1 entry".to_owned() } else { format!("{number} entries") }
+}
+
+fn save(file: &Path, output: &Path, quiet: bool) -> Result<Exit, Failure> {
+    let Rescued { entries, lost } = rescue(file, output)?;
+    let mut out = anstream::stdout().lock();
+    for what in &lost {
+        writeln!(out, "{BAD}lost{BAD:#}: {what}")?;
+    }
+    if lost.is_empty() {
+        writeln!(out, "nothing is lost")?;
+    }
+    // What is learned is kept in it.
+    let memory = Memory::open(output, Access::Write)?;
+    if !quiet {
+        warn_unread(&memory);
+        anstream::eprintln!("wrote {} with {}", output.display(), entries_said(entries as u64));
+    }
+    Ok(Exit::Success)
 }
 
 fn report(file: &Path) -> Result<Exit, Failure> {

@@ -19,6 +19,7 @@ fn every_command_has_help() {
         "memory export",
         "memory merge",
         "memory check",
+        "memory rescue",
         "memory forget",
         "check-env",
         "validate",

@@ -280,3 +280,108 @@ fn two_memories_become_one() {
     insta::assert_snapshot!("refused-merges", transcript.0);
     assert!(!folder.path("new").exists());
 }
+
+#[test]
+fn of_a_damaged_memory_is_saved_what_can_be_read() {
+    let folder = Folder::kitchen();
+    folder.run("run kitchen.json K/tasks/T1.1.json K/tasks/T2.1.json --kitchen --memory m -q").succeeds();
+    let whole = std::fs::read(folder.path("m")).expect("a memory");
+    let step = b"\"verdict\":\"as-expected\"";
+    let at = whole.windows(step.len()).rposition(|window| window == step).expect("a step");
+    let mut damaged = whole.clone();
+    damaged[at + 1..at + 4].fill(0);
+    folder.write("m", &damaged);
+    folder.write("cut", &whole[..whole.len() / 2]);
+    let mut transcript = crate::common::Transcript::default();
+    let commands =
+        ["memory rescue m -o saved", "memory log saved", "memory rescue saved -o again", "memory rescue cut -o new"];
+    for command in ["memory check m", "memory log m", "memory check cut"].into_iter().chain(commands) {
+        transcript.add(command, &folder.run(command));
+    }
+    let hint = "saves what can be read";
+    for command in ["show", "plan --memory", "memory merge m", "run K/tasks/T1.1.json --kitchen --memory"] {
+        let end = if command.starts_with("memory") { " -o new" } else { " K/tasks/T1.1.json" };
+        let end = if command == "show" { "" } else { end };
+        let refused = folder.refuses(31, &format!("{command} cut{end}"));
+        assert!(refused.err.contains(hint), "{refused}");
+    }
+    insta::assert_snapshot!("rescued-memories", transcript.0);
+    assert!(std::fs::read(folder.path("m")).expect("a memory") == damaged, "the damaged one stays as it is");
+    folder.run("run K/tasks/T1.1.json --kitchen --memory saved -q").succeeds();
+}
+
+/// Where a file may grow to 340 KiB and no further: as on a disk that is full.
+#[cfg(target_os = "linux")]
+#[test]
+fn what_was_kept_before_the_disk_was_full_is_there() {
+    use std::process::Command;
+
+    let folder = Folder::kitchen();
+    folder.run("learn K/demos --types K/types.pddl --memory m -q").succeeds();
+    let size = folder.path("m").metadata().expect("a memory").len();
+    let mut kept = 0;
+    for more in [0, 20, 60] {
+        let command = format!(
+            "trap '' XFSZ; ulimit -f {}; exec {} run K/tasks/T1.1.json K/tasks/T2.1.json --kitchen --memory m -q",
+            size.div_ceil(512) + more,
+            env!("CARGO_BIN_EXE_typelift")
+        );
+        let ended = Command::new("sh").args(["-c", &command]).current_dir(folder.path("")).output().expect("a shell");
+        let said = String::from_utf8_lossy(&ended.stderr);
+        assert!(matches!(ended.status.code(), Some(0 | 31)), "{said}");
+        assert!(ended.status.success() || said.contains("What was kept until then is there."), "{said}");
+        let entries = folder.run("memory log m").out.lines().count();
+        assert!(entries >= kept, "nothing is lost");
+        kept = entries;
+        folder.run("memory check m").succeeds();
+    }
+    folder.run("run K/tasks/T1.1.json --kitchen --memory m -q").succeeds();
+    assert!(folder.run("memory log m").out.lines().count() >= kept + 7);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_memory_that_cannot_be_written_can_be_read() {
+    use std::fs::set_permissions;
+    use std::os::unix::fs::{MetadataExt, PermissionsExt};
+    use std::os::unix::process::CommandExt;
+
+    let folder = Folder::kitchen();
+    folder.run("learn K/demos --types K/types.pddl --memory m -q").succeeds();
+    let forbid = |name: &str, mode| set_permissions(folder.path(name), PermissionsExt::from_mode(mode)).expect("set");
+    let is_root = folder.path("m").metadata().expect("a memory").uid() == 0;
+    let run = |command: &str| {
+        let mut program = crate::common::program(command);
+        if is_root {
+            // Root may write everywhere.
+            program.uid(65534);
+        }
+        let ended = program.current_dir(folder.path("")).output().ok()?;
+        Some((ended.status.code(), String::from_utf8_lossy(&ended.stderr).into_owned()))
+    };
+    forbid("m", 0o444);
+    forbid("", 0o555);
+    let read = [
+        "show m",
+        "plan m K/tasks/T1.1.json",
+        "memory log m",
+        "memory check m",
+        "why m 'USE(agent, cutboard, lettuce)'",
+    ];
+    for command in read {
+        // The program may lie where nobody else may look.
+        let Some((code, said)) = run(command) else { return forbid("", 0o755) };
+        assert_eq!((code, said.as_str()), (Some(0), ""), "{command}");
+    }
+    let write = [
+        "run K/tasks/T1.1.json --kitchen --memory m",
+        "memory forget m cut_lettuce.jsonl",
+        "learn K/demos --memory m -q",
+    ];
+    for command in write {
+        let (code, said) = run(command).expect("it ran before");
+        assert_eq!(code, Some(31), "{command}: {said}");
+        assert!(said.contains("m: it cannot be written to\nhint: Let it be written, or copy it"), "{said}");
+    }
+    forbid("", 0o755);
+}
