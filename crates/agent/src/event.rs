@@ -1,7 +1,7 @@
 //! What happens during an episode, for its observers.
 
 use serde::Serialize;
-use typelift_model::{GroundAtom, GroundCall, Plan, Stop, Symbol};
+use typelift_model::{GroundAtom, GroundCall, Plan, State, Stop, Symbol};
 use typelift_world::{Record, Verdict};
 
 use crate::monitor::StepResult;
@@ -141,6 +141,9 @@ impl<P: Clone> Event<P> {
 pub trait Observer {
     /// Something happened.
     fn event(&mut self, event: &Event);
+
+    /// What is there when an episode begins, before anything is planned.
+    fn first_state(&mut self, _: &State) {}
 
     /// What happened at a step, whatever came of it; the event [`Stepped`](Event::Stepped) tells of it after that. States
     /// hold what follows from the model's axioms too.

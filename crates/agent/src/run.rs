@@ -81,6 +81,7 @@ pub fn run(
                 let scene = if world.can_reset() { world.reset(reset)? } else { world.observe()? };
                 let state = parser.parse(&scene)?;
                 recording.first = Some(scene);
+                recording.observer.first_state(&state);
                 Input::Reset { id, state, instance: Some(instance_of(world, reset)) }
             }
             Command::Observe { id } | Command::Await { id, .. } => {

@@ -4,7 +4,8 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use typelift::model::{
-    ActionModel, Hierarchy, LearnedModel, ModelFileError, Observations, ParseConfig, Symbol, Task, did_you_mean,
+    ActionModel, Familiar, Hierarchy, LearnedModel, ModelFileError, Observations, ParseConfig, Symbol, Task,
+    Unfamiliar, did_you_mean,
 };
 use typelift::pddl::misfits;
 use typelift::words::count;
@@ -81,6 +82,11 @@ impl ModelInput {
             Self::Learned(learned) => learned.evidence.total().into_owned(),
             Self::Given(_) => Observations::default(),
         }
+    }
+
+    /// What it knows of states.
+    pub(crate) fn familiar(&self) -> Familiar {
+        Familiar::of(&self.model().predicates, &self.evidence())
     }
 
     /// The model alone.
@@ -164,6 +170,16 @@ impl ModelInput {
         text: &str,
         quiet: bool,
     ) -> Result<(ActionModel, Task), Failure> {
+        let familiar = (!quiet).then(|| self.familiar());
+        let (model, task) = self.posed(path, text, quiet)?;
+        if let Some(familiar) = familiar {
+            warn_of_doubts(path, &familiar.doubts(&task.init, &model.hierarchy));
+        }
+        Ok((model, task))
+    }
+
+    /// The model for a task that says from which state to plan, and the task.
+    fn posed(self, path: &Path, text: &str, quiet: bool) -> Result<(ActionModel, Task), Failure> {
         match self.task_from_text(path, text, quiet)? {
             TaskInput::Problem(problem) => Ok(*problem),
             TaskInput::File(file) => {
@@ -215,6 +231,12 @@ pub(crate) fn warn<'w>(mut warnings: impl Iterator<Item = &'w FileError>) {
     if more > 0 {
         anstream::eprintln!("{WARNING}warning{WARNING:#}: {more} more of this kind");
     }
+}
+
+/// Warns of what was probably meant otherwise in a state.
+pub(crate) fn warn_of_doubts(whose: &Path, doubts: &[Unfamiliar]) {
+    let warning = |doubt: &Unfamiliar| FileError::new(whose, doubt.to_string()).with_hint(doubt.hint());
+    warn(doubts.iter().map(warning).collect::<Vec<_>>().iter());
 }
 
 /// Warns of atoms of a problem that no action which declares the same types as their predicate ever meets.

@@ -8,8 +8,8 @@ use typelift::learn::{self, Options, evidence_of, learn_evidence};
 use typelift::model::{Evidence, LearnedModel, SourceId, Symbol, Unexplained, did_you_mean, name_with_arity};
 use typelift::words::{TypeNote, count, missing_actor, unbounded_parameters};
 use typelift::world::{
-    Dataset, FileError, LeftOut, ObjectTypes, Repeated, TrajectoryContext, Unlisted, demonstrations_at, read_dataset,
-    write_file,
+    Dataset, FileError, LeftOut, ObjectTypes, Parser, Repeated, TrajectoryContext, Unlisted, demonstrations_at,
+    read_any_trace, write_file,
 };
 use typelift_memory::{Access, Memory, MemoryError, MemoryErrorKind};
 
@@ -25,6 +25,9 @@ use crate::overwriting::{Output, keep_inputs};
 use crate::style::{HEAD, HINT, WARNING};
 use crate::waiting::Waiting;
 use crate::watchdog::within_shown;
+
+/// What takes its time, as it is said on a terminal.
+const LEARNING: &str = "learning";
 
 /// Learn actions from demonstrations
 #[derive(Debug, clap::Args)]
@@ -122,8 +125,8 @@ impl Learn {
         let memory = self.memory.as_ref().filter(|_| !self.dry_run);
         keep_inputs(output.into_iter().chain(memory).map(|path| Output::File(path)), self.inputs())?;
         keep_inputs(output.map(|path| Output::File(path)), &self.memory)?;
-        let waiting = Waiting::new(quiet || self.json);
-        let learn = || waiting.during("learning", || self.learn());
+        let waiting = Waiting::new(quiet);
+        let learn = || waiting.during(LEARNING, || self.learn(&waiting));
         let learned = within_shown(clock, self.limits, &waiting, learn)?;
         let Learned { model, report, notes, .. } = &learned;
         // First, so that the model is written even if standard output is closed.
@@ -187,7 +190,7 @@ impl Learn {
     }
 
     /// Reads the traces, and learns from them.
-    fn learn(&self) -> Result<Learned, Failure> {
+    fn learn(&self, waiting: &Waiting) -> Result<Learned, Failure> {
         let ignore = self.ignore.iter().filter(|name| !name.is_empty()).map(|name| Symbol::new(name)).collect();
         let mut types = match (&self.problems, &self.objects) {
             (Some(folder), _) => ObjectTypes::from_problems(folder)?,
@@ -207,7 +210,7 @@ impl Learn {
         let actor_before = model.actor.map(|ty| model.hierarchy.name(ty).clone());
         let dataset = match self.traces.as_slice() {
             [] => Dataset { hierarchy: model.hierarchy, parse, ..Dataset::default() },
-            traces => read_dataset(traces, model.hierarchy, parse, &context)?,
+            traces => read_traces(traces, Parser::new(model.hierarchy, parse), &context, waiting)?,
         };
         if let Some(into) = &self.into {
             forget(&mut evidence, into, &self.forget)?;
@@ -341,6 +344,24 @@ impl Learn {
             "{HINT}hint{HINT:#}: what changes by itself keeps alike actions apart; without {predicate} there would be {fewer} kinds of effect instead of {all}: if it flickers, give it hysteresis; if it does not matter, --ignore {source}"
         );
     }
+}
+
+/// Reads the demonstrations, and says at which it is.
+fn read_traces(
+    paths: &[PathBuf],
+    mut parser: Parser,
+    context: &TrajectoryContext,
+    waiting: &Waiting,
+) -> Result<Dataset, FileError> {
+    let files: Vec<Vec<PathBuf>> = paths.iter().map(|path| demonstrations_at(path)).collect::<Result<_, _>>()?;
+    let files = files.concat();
+    let read = |(file, number): (&PathBuf, usize)| {
+        waiting.is_at(&format!("reading trace {number} of {}", files.len()));
+        read_any_trace(file, context, &mut parser)
+    };
+    let traces = files.iter().zip(1..).map(read).collect::<Result<_, _>>()?;
+    waiting.is_at(LEARNING);
+    Ok(Dataset::new(&parser, traces))
 }
 
 /// Warns of attributes and relations that entities have at times only: the first of them, and how many there are.

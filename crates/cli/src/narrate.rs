@@ -2,14 +2,16 @@
 
 use std::fs::File;
 use std::io::{BufWriter, Write};
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use typelift::agent::{Event, Observer};
-use typelift::model::{Budget, Hierarchy, Stop};
+use typelift::model::{Budget, Familiar, Hierarchy, State, Stop};
 use typelift::words::{line, wire_event};
 
+use crate::files::warn_of_doubts;
 use crate::style::painted;
 use crate::waiting::Waiting;
 
@@ -22,6 +24,8 @@ pub(crate) struct Narrator {
     events: Option<BufWriter<File>>,
     /// The types of the model that is acted with.
     pub(crate) hierarchy: Hierarchy,
+    /// What the model knows of states, until the first of them was looked at.
+    pub(crate) familiar: Option<Familiar>,
     /// Why events could not be written.
     pub(crate) events_error: Option<std::io::Error>,
     /// Whether that is so.
@@ -56,6 +60,12 @@ impl Narrator {
 }
 
 impl Observer for Narrator {
+    fn first_state(&mut self, state: &State) {
+        let Some(familiar) = self.familiar.take() else { return };
+        self.waiting.end();
+        warn_of_doubts(Path::new("the environment"), &familiar.doubts(state, &self.hierarchy));
+    }
+
     fn event(&mut self, event: &Event) {
         self.waiting.end();
         match event {

@@ -92,7 +92,7 @@ struct FirstAnswer {
 impl Plan {
     pub(crate) fn run(&self, clock: Clock, quiet: bool) -> Result<Exit, Failure> {
         let interrupt = Interrupt::install()?;
-        let waiting = Waiting::new(quiet || self.planning.json);
+        let waiting = Waiting::new(quiet);
         let line = waiting.clone();
         interrupt.on_raised(move || line.end());
         let memory = memory_held_from_now();

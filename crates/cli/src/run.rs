@@ -186,7 +186,7 @@ impl Run {
         let Given { mut input, remembered, tasks } = self.read(quiet)?;
         let options = self.options(input.is_given())?;
         interrupt.heeded();
-        let waiting = Waiting::new(quiet || self.planning.json);
+        let waiting = Waiting::new(quiet);
         let world = self.open(&interrupt, &waiting)?;
         if self.restart && !world.can_reset() {
             return Err(Failure::bad_input(format!("--restart: {} cannot be reset", world.name()))
@@ -207,7 +207,8 @@ impl Run {
         if let Some(memory) = &memory {
             input = ModelInput::Learned(Box::new(memory.learned().clone()));
         }
-        let narrator = Narrator::new(!quiet && !self.planning.json, events, waiting);
+        let mut narrator = Narrator::new(!quiet && !self.planning.json, events, waiting);
+        narrator.familiar = (!quiet).then(|| input.familiar());
         let (interrupt, experience, model) = (&interrupt, Experience::new(), Arc::new(input.model().clone()));
         let mut session = Session {
             clock,

@@ -27,7 +27,7 @@ pub(crate) struct Waiting {
 /// A line that a thread draws.
 #[derive(Debug)]
 struct Line {
-    stage: String,
+    stage: Arc<Mutex<String>>,
     begun: Instant,
     delay: Duration,
     /// The thread ends when this is dropped.
@@ -64,6 +64,13 @@ impl Waiting {
         }
     }
 
+    /// What goes on is still the same for whoever waits, and is now at this stage.
+    pub(crate) fn is_at(&self, stage: &str) {
+        if let Some(line) = &*self.line.lock().unwrap_or_else(PoisonError::into_inner) {
+            stage.clone_into(&mut line.stage.lock().unwrap_or_else(PoisonError::into_inner));
+        }
+    }
+
     /// It is over, and the line is erased when this returns.
     pub(crate) fn end(&self) {
         let line = self.line.lock().unwrap_or_else(PoisonError::into_inner).take();
@@ -93,7 +100,8 @@ impl Line {
         delay: Duration,
     ) -> Self {
         let (over, is_over) = channel::<()>();
-        let drawn = stage.to_owned();
+        let stage = Arc::new(Mutex::new(stage.to_owned()));
+        let drawn = Arc::clone(&stage);
         let thread = thread::spawn(move || {
             let waits = |time| is_over.recv_timeout(time) == Err(RecvTimeoutError::Timeout);
             if !waits(delay) {
@@ -105,7 +113,8 @@ impl Line {
                 bar.set_style(style);
             }
             loop {
-                bar.set_message(format!("{drawn} … {} s", begun.elapsed().as_secs()));
+                let stage = drawn.lock().unwrap_or_else(PoisonError::into_inner).clone();
+                bar.set_message(format!("{stage} … {} s", begun.elapsed().as_secs()));
                 bar.tick();
                 if !waits(INTERVAL) {
                     break;
@@ -113,7 +122,7 @@ impl Line {
             }
             bar.finish_and_clear();
         });
-        Self { stage: stage.to_owned(), begun, delay, over, thread }
+        Self { stage, begun, delay, over, thread }
     }
 
     /// Erases it, and gives what it is about, since when, and after how long it is spoken of.
@@ -121,7 +130,8 @@ impl Line {
         drop(self.over);
         // A thread that could not draw is no matter.
         let _ = self.thread.join();
-        (self.stage, self.begun, self.delay)
+        let stage = self.stage.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        (stage, self.begun, self.delay)
     }
 }
 

@@ -48,6 +48,94 @@ fn goals_as_others_write_them() {
 }
 
 #[test]
+fn slips_in_the_state_of_a_task() {
+    let folder = Folder::kitchen();
+    let entity = |task: &mut serde_json::Value, id: &str, part: &str, was: &str, is: &str, value: serde_json::Value| {
+        let entities = task["state"]["entities"].as_array_mut().expect("entities");
+        let entity = entities.iter_mut().find(|entity| entity["id"] == id).expect("it is there");
+        let part = entity[part].as_object_mut().expect("it has some");
+        part.remove(was).expect("it has this");
+        part.insert(is.to_owned(), value);
+    };
+    let fresh = "chop_state_Chopped or chop_state_Fresh";
+    let nothing_said = |of: &str, gives: &str, ty: &str| {
+        format!(
+            "in the state, nothing is said of {of} that gives {gives}: of each {ty} that was learned from something was"
+        )
+    };
+    for (id, part, was, is, value, warning, hint) in [
+        (
+            "lettuce_1",
+            "attributes",
+            "chop_state",
+            "chop_state",
+            json!("Frehs"),
+            "in the state, chop_state_Frehs(lettuce_1): the model has no predicate `chop_state_Frehs`".to_owned(),
+            "Did you mean `chop_state_Fresh`?",
+        ),
+        (
+            "lettuce_1",
+            "attributes",
+            "chop_state",
+            "chopped",
+            json!(false),
+            nothing_said("lettuce_1", fresh, "lettuce"),
+            "Is `chop_state` left out, or misspelled?",
+        ),
+        (
+            "agent_1",
+            "relations",
+            "holding",
+            "holds",
+            json!(null),
+            nothing_said("agent_1", "holding_None or holding_holds", "agent"),
+            "The model does not know `holds_None`: is it meant to be `holding_None` or `holding_holds`?",
+        ),
+        (
+            "agent_1",
+            "relations",
+            "holding",
+            "holdin",
+            json!(null),
+            "in the state, holdin_None(agent_1): the model has no predicate `holdin_None`".to_owned(),
+            "Did you mean `holding_None`?",
+        ),
+    ] {
+        folder.changed("K/tasks/T1.1.json", "task.json", |task| entity(task, id, part, was, is, value.clone()));
+        let planned = folder.run("plan kitchen.json task.json");
+        let told = format!("warning: task.json: {warning}\nhint: {hint}\n");
+        assert!(planned.err.starts_with(&told), "{planned}");
+        assert!(!folder.run("plan kitchen.json task.json -q").err.contains("warning"));
+    }
+    assert!(!folder.run("plan kitchen.json K/tasks/T1.1.json").err.contains("warning"));
+}
+
+/// What an environment says is looked at once, before anything is planned.
+#[test]
+fn slips_in_the_state_of_an_environment() {
+    let folder = Folder::new();
+    let state = |lamp: &str| format!(r#"{{"entities":[{{"id":"l","type":"lamp","attributes":{lamp}}}]}}"#);
+    let (dark, bright) = (state(r#"{"light":"Dark"}"#), state(r#"{"light":"Bright"}"#));
+    let press = r#"{"action":{"name":"press","args":["l"]}}"#;
+    let trace = format!("{{\"format\":\"trace/1\"}}\n{{\"state\":{dark}}}\n{press}\n{{\"state\":{bright}}}\n");
+    folder.write("types.json", r#"{"lamp":"object"}"#);
+    folder.write("lamp.jsonl", trace);
+    folder.run("learn lamp.jsonl --types types.json -o model.json -q").succeeds();
+    folder.write("task.json", r#"{"format":"task/1","goal":["light_Bright(l)"]}"#);
+    let answer = |more: &str| format!(r#"{{\"id\":$n,\"ok\":true{}}}"#, more.replace('"', "\\\""));
+    let lamp = format!(
+        "n=0; while read -r q; do n=$((n+1)); case \"$q\" in *hello*) echo \"{}\";; *) echo \"{}\";; esac; done\n",
+        answer(r#","name":"lamp","reset":true"#),
+        answer(&format!(r#","executed":false,"state":{}"#, state(r#"{"light":"Drak"}"#)))
+    );
+    folder.write("lamp.sh", lamp);
+    let told = "warning: the environment: in the state, light_Drak(l): the model has no predicate `light_Drak`\n\
+                hint: Did you mean `light_Dark`?\n";
+    let ran = folder.run("run model.json task.json task.json --env 'sh lamp.sh'");
+    assert!(ran.code == 12 && ran.err.matches(told).count() == 1, "{ran}");
+}
+
+#[test]
 fn a_type_or_another_value_in_the_goal_of_a_problem() {
     let folder = Folder::kitchen();
     for (goal, hint) in [

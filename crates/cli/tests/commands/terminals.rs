@@ -122,6 +122,32 @@ fn a_step_that_takes_its_time_is_spoken_of_and_what_the_environment_says_stands_
     assert_eq!(code, Some(0), "{out}");
 }
 
+/// A program reads standard output; a person still waits at the terminal.
+#[test]
+fn what_takes_its_time_is_spoken_of_with_json_too() {
+    let folder = Folder::new();
+    lamp(&folder, "act", "1.5");
+    folder.write("state.json", r#"{"format":"task/1","goal":["lit(lamp_1)"],"state":{"entities":[{"id":"lamp_1","type":"lamp"},{"id":"robot_1","type":"robot"}]}}"#);
+    folder.write("slow.sh", "sleep 2");
+    let fifo = Command::new("mkfifo").arg(folder.path("slow.jsonl")).status();
+    assert!(fifo.expect("there is mkfifo").success());
+    for (command, spoken) in [
+        ("run model.json task.json --env 'sh lamp.sh' --json", "waiting for light(robot_1, lamp_1) … 1 s"),
+        ("plan model.json state.json --planner 'sh ./slow.sh {domain} {problem} {plan}' --json", "planning … 1 s"),
+        ("learn lamp.jsonl slow.jsonl --types types.json --dry-run --json", "reading trace 2 of 2 … 1 s"),
+    ] {
+        let mut shown = OnTerminal::start(&folder, command);
+        shown.shows(spoken);
+        if command.starts_with("learn") {
+            std::fs::copy(folder.path("lamp.jsonl"), folder.path("slow.jsonl")).expect("written");
+        }
+        let (_, out) = shown.ended();
+        // This planner finds nothing.
+        assert!(out.is_empty() == command.starts_with("plan"), "{command}: {out}");
+        assert!(out.is_empty() || serde_json::from_str::<serde_json::Value>(&out).is_ok(), "{command}: {out}");
+    }
+}
+
 #[test]
 fn an_environment_that_does_not_say_hello_is_waited_for() {
     let folder = Folder::new();
