@@ -87,7 +87,8 @@ fn verdicts() {
 fn a_failure_is_about_all_that_the_expected_action_is_about() {
     let (action, states) = not_executed("on(cup_1,shelf_1)", "PICK(cup_1)", "on(cup_1,shelf_1)");
     let args = vec![Symbol::new("cup_1"), Symbol::new("shelf_1")];
-    let expected = Some(Expected { action: Symbol::new("PICK-vessel-shelf"), args });
+    let expected =
+        Some(Expected { action: Symbol::new("PICK-vessel-shelf"), args, adds: Vec::new(), deletes: Vec::new() });
     let with = evidence(&[(TraceAction { expected, ..action.clone() }, states.clone())]);
     let (key, seen) = with.negatives.first_key_value().expect("a failure");
     let types: Vec<&str> = key.types.iter().map(Symbol::as_str).collect();
@@ -147,7 +148,8 @@ fn an_action_about_more_than_a_failure_tells_is_not_held_against_it() {
     let unexplained = evidence(&[cup.clone(), mug.clone(), (action.clone(), states.clone())]);
     assert_eq!(names(&learned(&unexplained)), ["TAKE-vessel-shelf"], "nothing tells what the jar stood on");
     let args = vec![Symbol::new("jar_1"), Symbol::new("shelf_1")];
-    let expected = Some(Expected { action: Symbol::new("TAKE-vessel-shelf"), args });
+    let expected =
+        Some(Expected { action: Symbol::new("TAKE-vessel-shelf"), args, adds: Vec::new(), deletes: Vec::new() });
     let told = evidence(&[cup, mug, (TraceAction { expected, ..action }, states)]);
     assert_eq!(names(&learned(&told)), ["TAKE-cup-shelf", "TAKE-mug-shelf"]);
 }

@@ -4,7 +4,8 @@ use std::path::Path;
 use std::sync::Arc;
 
 use typelift::agent::{
-    Account, Command, Confirmation, Episode, Event, Experience, Input, Observer, Options, StepResult, run,
+    Account, Command, Confirmation, Episode, Event, Experience, Failed, Input, Observer, Options, Recalled, StepResult,
+    run,
 };
 use typelift::imagine;
 use typelift::model::{ActionModel, Budget, ParseConfig, Plan};
@@ -20,6 +21,8 @@ use typelift_tests::Watched;
 struct Heard {
     records: Vec<Record>,
     results: Vec<StepResult>,
+    /// What the run knows in the end.
+    experience: Experience,
 }
 
 impl Observer for Heard {
@@ -51,6 +54,7 @@ fn recorded(
     let mut parser = Parser::new(hierarchy(), ParseConfig::default());
     let mut approve = |_: &Plan| Confirmation::Approve;
     let ran = run(&mut episode, world, &reset, &mut parser, &mut approve, &mut heard, &mut [&mut recorder]);
+    heard.experience = episode.experience().clone();
     (ran.ok(), heard, recorder)
 }
 
@@ -100,6 +104,33 @@ fn the_files_say_what_the_episode_says() {
         }
     }
     assert!(failures > 10 && resets > 5, "{failures} failures, {resets} resets");
+}
+
+#[test]
+fn who_recalls_a_run_knows_what_the_run_knew() {
+    let model = Arc::new(kitchen_model(false));
+    let mut failures = 0;
+    for (task, restart) in faults().into_iter().zip([false, true].into_iter().cycle()) {
+        let folder = tempfile::tempdir().expect("a folder");
+        let (account, heard, recorder) = recorded(&model, &mut Watched::new(), &task, restart, folder.path());
+        account.expect("the simulator works");
+        let mut parser = Parser::new(hierarchy(), ParseConfig::default());
+        let mut recalled = Experience::new();
+        for (number, file) in recorder.files().iter().enumerate() {
+            let trace = read_trace(file, &mut parser).expect("a trace");
+            let instance = &heard.experience.successes()[0].deed.instance;
+            recalled.recall(&Recalled { trace: &trace, instance, goes_on: number > 0 }, &model);
+        }
+        assert_eq!(recalled.successes(), heard.experience.successes(), "{}", task.name);
+        let known = |experience: &Experience| -> Vec<Failed> {
+            let failed = experience.failures().iter().cloned();
+            // What is to blame follows from all that is known; the paper's rule is not recorded.
+            failed.map(|failed| Failed { suspects: Vec::new(), useless: false, ..failed }).collect()
+        };
+        assert_eq!(known(&recalled), known(&heard.experience), "{}", task.name);
+        failures += recalled.failures().len();
+    }
+    assert!(failures > 10, "{failures} failures");
 }
 
 #[test]

@@ -79,13 +79,25 @@ impl Failure {
     /// The step and what came of it, in words: `wrap(drum_1): "a drum rolls off"`.
     pub fn in_words(&self) -> String {
         let Self { call, result, reason, missed, added, deleted, .. } = self;
-        match (result, reason) {
-            (StepResult::Rejected, None) => format!("{call} was rejected"),
-            (StepResult::Rejected, Some(reason)) => format!("{call} was rejected: {reason}"),
-            (StepResult::Tried(Verdict::Refused), Some(reason)) => format!("{call}: \"{reason}\""),
-            (result, Some(reason)) => format!("{call}: {}: \"{reason}\"", result.in_words(missed, added, deleted)),
-            (result, None) => format!("{call}: {}", result.in_words(missed, added, deleted)),
-        }
+        failure_in_words(call, *result, reason.as_deref(), missed, added, deleted)
+    }
+}
+
+/// A step that failed and what came of it, in words.
+pub(crate) fn failure_in_words(
+    call: &GroundCall,
+    result: StepResult,
+    reason: Option<&str>,
+    missed: &[String],
+    added: &[GroundAtom],
+    deleted: &[GroundAtom],
+) -> String {
+    match (result, reason) {
+        (StepResult::Rejected, None) => format!("{call} was rejected"),
+        (StepResult::Rejected, Some(reason)) => format!("{call} was rejected: {reason}"),
+        (StepResult::Tried(Verdict::Refused), Some(reason)) => format!("{call}: \"{reason}\""),
+        (result, Some(reason)) => format!("{call}: {}: \"{reason}\"", result.in_words(missed, added, deleted)),
+        (result, None) => format!("{call}: {}", result.in_words(missed, added, deleted)),
     }
 }
 

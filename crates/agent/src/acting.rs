@@ -4,15 +4,12 @@
 //! tried again. Then it imagines and plans again: from the initial state if the world is set back (the paper's way),
 //! else from where it is.
 
-use std::collections::BTreeSet;
-
 use typelift_belief::Deed;
-use typelift_model::{GroundAtom, State, Symbol};
+use typelift_model::{State, Symbol};
 use typelift_plan::Ban;
 use typelift_world::{Expected, Record, TraceAction, Verdict};
 
 use crate::account::{Ending, Failure, SeenDone};
-use crate::actors::actors;
 use crate::deed::Failed;
 use crate::episode::{Episode, EpisodeError, Phase};
 use crate::event::{Event, Observer};
@@ -55,7 +52,7 @@ impl Episode {
         let Some(execution) = &mut self.execution else { return self.propose(observer) };
         self.account.actions += 1;
         execution.taken = execution.next_step + 1;
-        let compared = |expected| compare(&expected, &self.state, &after, execution.expects_changes());
+        let compared = |expected| compare(&expected, &self.state, &after, execution.expects_changes(), &self.model);
         let unexpected = Comparison { verdict: Verdict::Otherwise, missed: Vec::new() };
         let Comparison { verdict: seen, missed } = execution.expected(&self.state).map_or(unexpected, compared);
         let verdict = match excuse {
@@ -116,8 +113,11 @@ impl Episode {
         reason: Option<String>,
         verdict: Verdict,
     ) -> Option<Record> {
-        let step = self.execution.as_ref()?.step()?;
-        let expected = Some(Expected { action: step.action.clone(), args: step.objects.clone() });
+        let execution = self.execution.as_ref()?;
+        let step = execution.step()?;
+        let effect = execution.expected(before);
+        let (adds, deletes) = effect.map(|action| (action.adds, action.deletes)).unwrap_or_default();
+        let expected = Some(Expected { action: step.action.clone(), args: step.objects.clone(), adds, deletes });
         let action = TraceAction { executed, reason, expected, verdict: Some(verdict), ..step.call.clone().into() };
         let (before, after) = (before.clone(), self.state.clone());
         Some(Record { source: None, step: self.account.actions, before, action, after })
@@ -234,41 +234,21 @@ impl Episode {
             suspects: Vec::new(),
         };
         let why = failure.in_words();
-        let acting = actors(&step, &self.model, before);
         let failed = Failed {
-            deed,
             count: 1 + u64::from(execution.retries),
-            when: 0,
-            task: self.task,
             ban: execution.expected(before).map(|action| Ban::of(&action)),
-            around: self.around(&step.objects, &acting, before),
-            actors: acting,
-            in_goal: step.objects.iter().filter(|object| self.goal.mentions(object)).cloned().collect(),
             objection,
             useless: self.options.restart,
             rejected: result == StepResult::Rejected,
-            reason: why.clone(),
-            suspects: Vec::new(),
+            ..Failed::of(deed, &step.call.name, &self.model, before, &self.goal, why.clone())
         };
-        self.experience.failed(failed);
+        self.experience.failed(Failed { task: self.task, ..failed });
         self.reconsider();
         failure.suspects = self.experience.failures().last().into_iter().flat_map(Failed::suspects).cloned().collect();
         for suspect in &failure.suspects {
             observer.event(&Event::Excluded { suspect: suspect.clone(), reason: why.clone() });
         }
         self.account.failures.push(failure);
-    }
-
-    /// What holds of who acts and of others than these, and can change.
-    fn around(&self, objects: &[Symbol], acting: &BTreeSet<Symbol>, state: &State) -> BTreeSet<GroundAtom> {
-        let effects = self.model.actions.iter().flat_map(|schema| &schema.effects);
-        let changing: BTreeSet<&Symbol> = effects.map(|effect| &effect.literal.atom.predicate).collect();
-        let is_around = |atom: &&GroundAtom| {
-            let of_step = |arg: &Symbol| objects.contains(arg);
-            let of_actor = |arg: &Symbol| acting.contains(arg);
-            changing.contains(&atom.predicate) && atom.args.iter().any(of_actor) && !atom.args.iter().all(of_step)
-        };
-        state.atoms.iter().filter(is_around).cloned().collect()
     }
 
     /// Plans anew: from the initial state if the world is set back, else from where it is.

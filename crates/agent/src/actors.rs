@@ -6,16 +6,21 @@
 
 use std::collections::BTreeSet;
 
-use typelift_model::{ActionModel, ActionSchema, State, Step, Symbol, Term, TypeId};
+use typelift_model::{ActionModel, ActionSchema, State, Symbol, Term, TypeId};
 
-/// The objects of a step that act.
-pub(crate) fn actors(step: &Step, model: &ActionModel, state: &State) -> BTreeSet<Symbol> {
+/// Those of the objects of a step with this call that act.
+pub(crate) fn actors<'a>(
+    objects: impl Iterator<Item = &'a Symbol>,
+    call: &Symbol,
+    model: &ActionModel,
+    state: &State,
+) -> BTreeSet<Symbol> {
     let acts = |object: &&Symbol| match (state.objects.get(*object), model.actor) {
         (None, _) => false,
         (Some(ty), Some(_)) => model.is_actor(*ty),
-        (Some(ty), None) => is_alone(object, *ty, state) && seems_to_act(*ty, &step.call.name, model),
+        (Some(ty), None) => is_alone(object, *ty, state) && seems_to_act(*ty, call, model),
     };
-    step.objects.iter().filter(acts).cloned().collect()
+    objects.filter(acts).cloned().collect()
 }
 
 fn is_alone(object: &Symbol, ty: TypeId, state: &State) -> bool {
@@ -49,7 +54,7 @@ fn demonstrated(schema: &ActionSchema, parameter: usize, model: &ActionModel) ->
 
 #[cfg(test)]
 mod tests {
-    use typelift_model::{Cost, GroundCall, Hierarchy, LiftedCall, Parameter, Provenance};
+    use typelift_model::{Cost, Hierarchy, LiftedCall, Parameter, Provenance};
 
     use super::*;
 
@@ -81,16 +86,12 @@ mod tests {
         let ty = |object: &&str| hierarchy.id(object.trim_end_matches(|c: char| c.is_ascii_digit())).expect("a type");
         let objects: Vec<(Symbol, TypeId)> = objects.iter().map(|object| (Symbol::new(object), ty(object))).collect();
         let state = State { objects: objects.iter().cloned().collect(), ..State::default() };
-        let step = Step {
-            action: call.into(),
-            call: GroundCall { name: call.into(), args: Vec::new() },
-            objects: objects.into_iter().map(|(object, _)| object).collect(),
-            imagined: None,
-            cost: 1,
-        };
         let actions = actions.iter().map(|(call, parameters)| schema(&hierarchy, call, parameters)).collect();
         let model = ActionModel { hierarchy, actions, ..ActionModel::default() };
-        actors(&step, &model, &state).iter().map(ToString::to_string).collect()
+        actors(objects.iter().map(|(object, _)| object), &call.into(), &model, &state)
+            .iter()
+            .map(ToString::to_string)
+            .collect()
     }
 
     /// Calls that name the cup alone: who picks it up, and what flattens it, takes part unnamed.

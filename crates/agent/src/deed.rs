@@ -4,9 +4,10 @@ use std::collections::BTreeSet;
 
 use serde::{Deserialize, Serialize};
 use typelift_belief::Deed;
-use typelift_model::{GroundAtom, State, Symbol};
+use typelift_model::{ActionModel, Goal, GroundAtom, State, Symbol};
 use typelift_plan::Ban;
 
+use crate::actors::actors;
 use crate::objection::Objection;
 use crate::suspect::{Condition, Suspect, Suspected};
 
@@ -60,6 +61,35 @@ pub struct Failed {
 }
 
 impl Failed {
+    /// That what was done once with this call in this state failed, where this was the goal; nothing is said yet of what was
+    /// expected or is to blame, nor when it was.
+    pub(crate) fn of(
+        deed: Deed,
+        call: &Symbol,
+        model: &ActionModel,
+        before: &State,
+        goal: &Goal,
+        reason: String,
+    ) -> Self {
+        let objects = || deed.participants.iter().map(|participant| &participant.object);
+        let actors = actors(objects(), call, model, before);
+        Self {
+            count: 1,
+            when: 0,
+            task: 0,
+            ban: None,
+            around: around(&deed, &actors, model, before),
+            actors,
+            in_goal: objects().filter(|object| goal.mentions(object)).cloned().collect(),
+            objection: None,
+            useless: false,
+            rejected: false,
+            reason,
+            suspects: Vec::new(),
+            deed,
+        }
+    }
+
     /// What is to blame, however sure that is.
     pub(crate) fn suspects(&self) -> impl Iterator<Item = &Suspect> {
         self.suspects.iter().map(|suspected| &suspected.suspect)
@@ -92,4 +122,16 @@ impl Failed {
         };
         if self.rejected { Vec::new() } else { self.around.iter().map(condition).collect() }
     }
+}
+
+/// What holds of who acts and of others than who took part, and can change.
+fn around(deed: &Deed, acting: &BTreeSet<Symbol>, model: &ActionModel, state: &State) -> BTreeSet<GroundAtom> {
+    let effects = model.actions.iter().flat_map(|schema| &schema.effects);
+    let changing: BTreeSet<&Symbol> = effects.map(|effect| &effect.literal.atom.predicate).collect();
+    let took_part = |arg: &Symbol| deed.participants.iter().any(|participant| participant.object == *arg);
+    let is_around = |atom: &&GroundAtom| {
+        let of_actor = |arg: &Symbol| acting.contains(arg);
+        changing.contains(&atom.predicate) && atom.args.iter().any(of_actor) && !atom.args.iter().all(took_part)
+    };
+    state.atoms.iter().filter(is_around).cloned().collect()
 }

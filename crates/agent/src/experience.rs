@@ -46,6 +46,11 @@ impl Experience {
         self.tasks
     }
 
+    /// The number of the task that was begun last.
+    pub(crate) fn task(&self) -> u64 {
+        self.tasks
+    }
+
     /// Notes that something worked.
     pub fn succeeded(&mut self, deed: Deed) {
         self.deeds += 1;
@@ -154,7 +159,7 @@ impl Experience {
         let is_here = failed.deed.instance == *instance;
         let in_this_task = failed.task == self.tasks;
         let counts = |certainty: Certainty| match counted {
-            _ if failed.objection.is_some() => true,
+            _ if failed.rejected || failed.objection.is_some() => true,
             CountedExclusions::All => true,
             CountedExclusions::Likely => certainty > Certainty::Guessed,
             CountedExclusions::OfThisTask => in_this_task,
@@ -163,7 +168,9 @@ impl Experience {
         let suspects = failed.suspects.iter().filter(|suspected| counts(suspected.certainty));
         let mut suspects: Vec<Suspect> = suspects.map(|suspected| suspected.suspect.clone()).collect();
         suspects.retain(|suspect| is_here || !suspect.belongs_to_instance());
-        let mut ban = failed.banned_in(self.tasks, state).filter(|_| is_here);
+        // Where a literal is to blame, it may be tried again as soon as that is otherwise.
+        let is_conditional = suspects.iter().any(|suspect| matches!(suspect, Suspect::Condition(_)));
+        let mut ban = failed.banned_in(self.tasks, state).filter(|_| is_here && !is_conditional);
         let elsewhere = failed.elsewhere();
         if counted == CountedExclusions::Elsewhere && ban.is_some() && !elsewhere.is_empty() {
             ban = None;

@@ -1,7 +1,7 @@
 //! The effect check: what an action changed against what it was expected to change.
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
-use typelift_model::{GroundAction, GroundAtom, State};
+use typelift_model::{ActionModel, GroundAction, GroundAtom, State};
 use typelift_world::Verdict;
 
 /// What came of a step of a plan.
@@ -116,8 +116,15 @@ pub struct Comparison {
 ///
 /// Every atom of the expected effect must be in the observed change; additional changes are tolerated. Every effect
 /// of a learned action was a change when it was observed, so `strict_effects` expects each to be a change now; for
-/// given actions only what would change is expected. An atom that is unknown before or after counts neither way.
-pub fn compare(action: &GroundAction, before: &State, after: &State, strict_effects: bool) -> Comparison {
+/// given actions only what would change is expected. An atom that is unknown before or after counts neither way. Nor does
+/// one that the model does not speak of count as a change: whatever it is, no action is about it.
+pub fn compare(
+    action: &GroundAction,
+    before: &State,
+    after: &State,
+    strict_effects: bool,
+    model: &ActionModel,
+) -> Comparison {
     let wanted = |atom: &&GroundAtom, adds: bool| {
         let known = !before.is_unknown(atom) && !after.is_unknown(atom);
         known && (strict_effects || before.holds(atom) != adds)
@@ -129,9 +136,10 @@ pub fn compare(action: &GroundAction, before: &State, after: &State, strict_effe
     let not_added = adds.iter().filter(|atom| !added(atom)).map(ToString::to_string);
     let not_deleted = deletes.iter().filter(|atom| !deleted(atom)).map(|atom| format!("not {atom}"));
     let missed: Vec<String> = not_added.chain(not_deleted).collect();
+    let spoken_of = |atom: &GroundAtom| model.predicates.contains_key(&atom.predicate);
     let verdict = if missed.is_empty() {
         Verdict::AsExpected
-    } else if before.objects == after.objects && before.added(after).chain(before.deleted(after)).next().is_none() {
+    } else if before.objects == after.objects && !before.added(after).chain(before.deleted(after)).any(spoken_of) {
         Verdict::Nothing
     } else if missed.len() < adds.len() + deletes.len() {
         Verdict::Partly
@@ -191,14 +199,17 @@ mod tests {
         };
         let before = state(&["shut()"]);
         let action = schema.instantiate(&[], &before, &Hierarchy::default()).expect("it fits");
-        let cases: [(&[&str], Verdict, &[&str]); 4] = [
+        let predicates = ["empty", "lit", "more", "shut"].map(|name| (Symbol::new(name), Vec::new()));
+        let model = ActionModel { predicates: predicates.into(), ..ActionModel::default() };
+        let cases: [(&[&str], Verdict, &[&str]); 5] = [
             (&["empty()", "lit()", "more()"], Verdict::AsExpected, &[]),
             (&["empty()", "shut()"], Verdict::Partly, &["lit()", "not shut()"]),
             (&["shut()"], Verdict::Nothing, &["empty()", "lit()", "not shut()"]),
             (&["shut()", "more()"], Verdict::Otherwise, &["empty()", "lit()", "not shut()"]),
+            (&["shut()", "unheard_of()"], Verdict::Nothing, &["empty()", "lit()", "not shut()"]),
         ];
         for (after, verdict, missed) in cases {
-            let found = compare(&action, &before, &state(after), true);
+            let found = compare(&action, &before, &state(after), true, &model);
             assert_eq!((found.verdict, found.missed), (verdict, missed.iter().map(ToString::to_string).collect()));
         }
     }

@@ -63,7 +63,7 @@ impl ActionBelief {
             top: hierarchy.top(),
             types: Vec::new(),
             literals: literal_odds(schema, &outcomes),
-            absent: absence_odds(&outcomes),
+            absent: absence_odds(&outcomes, model),
             blamed: BTreeMap::new(),
             clauses: Vec::new(),
             outcomes,

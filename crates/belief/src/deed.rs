@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
-use typelift_model::{ActionSchema, Hierarchy, LiftedAtom, State, Step, Symbol, Term};
+use typelift_model::{ActionSchema, GroundCall, Hierarchy, LiftedAtom, State, Step, Symbol, Term};
 
 /// An object that took part in an action.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -53,6 +53,25 @@ impl Deed {
             participants: participants.collect(),
             held: held(&step.objects, state),
         }
+    }
+
+    /// What was done with this call in this state of an instance by what is known of it afterwards: these objects took part,
+    /// and atoms of these predicates were to be added. The same as [`of`](Self::of) says, unless an object took two parts.
+    pub fn recorded(
+        call: &GroundCall,
+        objects: &[Symbol],
+        adds: BTreeSet<Symbol>,
+        state: &State,
+        instance: &Symbol,
+        hierarchy: &Hierarchy,
+    ) -> Self {
+        let participants = objects.iter().map(|object| Participant {
+            object: object.clone(),
+            ty: hierarchy.name(state.objects.get(object).copied().unwrap_or(hierarchy.root())).clone(),
+            place: call.args.iter().position(|arg| arg == object),
+        });
+        let (instance, call) = (instance.clone(), call.name.clone());
+        Self { instance, call, adds, participants: participants.collect(), held: held(objects, state) }
     }
 
     /// Whether it was to do what this action does.

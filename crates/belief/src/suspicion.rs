@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use typelift_model::{ActionSchema, LiftedAtom, TypeId};
+use typelift_model::{ActionModel, ActionSchema, LiftedAtom, TypeId};
 
 use crate::CHANCE;
 use crate::cause::Pair;
@@ -18,6 +18,8 @@ const OTHER: f64 = 1.0;
 
 /// The odds that what never held where it worked must not hold, and how often such an atom does not hold anyway.
 const MUST_NOT: f64 = 0.02;
+/// The same of a literal of which the model never heard: the world has begun to speak of something else.
+const UNHEARD_OF: f64 = 0.004;
 const FALSE_ANYWAY: f64 = 0.8;
 
 /// The odds that two types do not go together, though each goes with others.
@@ -45,14 +47,15 @@ pub(crate) fn literal_odds(schema: &ActionSchema, outcomes: &[Outcome]) -> BTree
 }
 
 /// The logarithmic odds that what held where it failed, and never where it worked, must not hold.
-pub(crate) fn absence_odds(outcomes: &[Outcome]) -> BTreeMap<LiftedAtom, f64> {
+pub(crate) fn absence_odds(outcomes: &[Outcome], model: &ActionModel) -> BTreeMap<LiftedAtom, f64> {
     let worked = || outcomes.iter().filter(|outcome| outcome.worked);
     let failed = outcomes.iter().filter(|outcome| !outcome.worked);
     let atoms: BTreeSet<&LiftedAtom> = failed.flat_map(|outcome| &outcome.held).collect();
     let never = atoms.into_iter().filter(|atom| !worked().any(|outcome| outcome.held.contains(*atom)));
     let odds = |atom: &LiftedAtom| {
         let told = worked().filter(|outcome| outcome.tells_of(atom)).map(|outcome| outcome.count as f64);
-        MUST_NOT.ln() - told.sum::<f64>() * FALSE_ANYWAY.ln()
+        let prior = if model.predicates.contains_key(&atom.predicate) { MUST_NOT } else { UNHEARD_OF };
+        prior.ln() - told.sum::<f64>() * FALSE_ANYWAY.ln()
     };
     never.map(|atom| (atom.clone(), odds(atom))).collect()
 }

@@ -3,10 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
-use typelift::model::LearnedModel;
+use typelift::agent::{Experience, Recalled};
+use typelift::model::{LearnedModel, Observations};
 use typelift::words::count;
 use typelift::world::is_pddl;
-use typelift_memory::{Access, Memory, MemoryError, MemoryErrorKind};
+use typelift_memory::{Access, Memory, MemoryError, MemoryErrorKind, PastEpisode};
 
 use crate::failure::Failure;
 use crate::files::{ModelInput, add_types};
@@ -103,6 +104,22 @@ impl Remembered {
         }
         Ok(memory)
     }
+}
+
+/// How many tasks before this run are known as if they had been tried in it: which things took part in what. Of earlier ones
+/// their types are known.
+const RECALLED: usize = 50;
+
+/// What was tried in the tasks before, and what else the model was learned from.
+pub(crate) fn recall(memory: &Memory) -> Result<(Observations, Experience), Failure> {
+    let (mut experience, mut evidence) = (Experience::new(), memory.learned().evidence.clone());
+    for PastEpisode { source, instance, trace, goes_on } in memory.recent(RECALLED)? {
+        // What never was compact is not compact now.
+        let _ = evidence.take_out(source);
+        let recalled = Recalled { trace: &trace, instance: &instance, goes_on };
+        experience.recall(&recalled, &memory.learned().model);
+    }
+    Ok((evidence.total().into_owned(), experience))
 }
 
 /// Says which parts of a memory nothing is learned from.

@@ -27,7 +27,7 @@ use crate::no_plan::{for_episode, say_hint, say_undemonstrated};
 use crate::overwriting::{Output, keep_inputs};
 use crate::planning_options::PlanningOptions;
 use crate::quantities::parse_whole;
-use crate::remembered::{Remembered, is_task};
+use crate::remembered::{Remembered, is_task, recall};
 use crate::style::{HEAD, HINT, WARNING, painted};
 use crate::waiting::Waiting;
 
@@ -209,12 +209,16 @@ impl Run {
         }
         let mut narrator = Narrator::new(!quiet && !self.planning.json, events, waiting);
         narrator.familiar = (!quiet).then(|| input.familiar());
-        let (interrupt, experience, model) = (&interrupt, Experience::new(), Arc::new(input.model().clone()));
+        let (interrupt, model) = (&interrupt, Arc::new(input.model().clone()));
+        let (evidence, experience) = match &memory {
+            Some(memory) => recall(memory)?,
+            None => (input.evidence(), Experience::new()),
+        };
         let mut session = Session {
             clock,
             interrupt,
             quiet,
-            evidence: Arc::new(input.evidence()),
+            evidence: Arc::new(evidence),
             input,
             model,
             memory,

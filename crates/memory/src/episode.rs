@@ -44,7 +44,7 @@ impl<'m> EpisodeLog<'m> {
     }
 
     fn open(&mut self, Beginning { first, environment, instance }: &Beginning<'_>) -> Result<(), MemoryErrorKind> {
-        self.close("set_back")?;
+        self.close(log::SET_BACK)?;
         let scene = (*first).clone();
         let (environment, instance) = (environment.clone(), instance.clone());
         let header = raw(&TraceLine::from(&self.header))?;

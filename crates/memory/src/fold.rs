@@ -137,7 +137,7 @@ pub(crate) fn under_way(connection: &Connection) -> Result<Vec<i64>, MemoryError
     Ok(numbers.collect::<Result<_, _>>()?)
 }
 
-fn read_trace(text: &str, episode: i64, basis: &LearnedModel) -> Result<Trace, FileError> {
+pub(crate) fn read_trace(text: &str, episode: i64, basis: &LearnedModel) -> Result<Trace, FileError> {
     let mut parser = Parser::new(basis.model.hierarchy.clone(), basis.parse.clone());
     let place = format!("episode {episode}");
     let reader = TraceReader::new(Path::new(&place), text.as_bytes())?;

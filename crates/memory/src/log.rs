@@ -66,6 +66,9 @@ pub(crate) struct Stepped {
     pub(crate) change: SceneChange,
 }
 
+/// How an episode ends where the environment is set back: another one goes on with the task.
+pub(crate) const SET_BACK: &str = "set_back";
+
 #[derive(Serialize, Deserialize)]
 pub(crate) struct Ended {
     /// How, in a word.

@@ -14,6 +14,7 @@ use crate::fold::{Fold, PROGRAM, Sum, Unread, kept_fold, taken_back, under_way};
 use crate::format::{self, Access};
 use crate::log::{self, Kind, Wanted, append, list, trace_text};
 use crate::logged::{Logged, logged};
+use crate::recent::{PastEpisode, recent};
 
 /// The sum is written down once the log has grown by one part in so many: all that is written so, over the years, is in
 /// proportion to the log.
@@ -255,6 +256,15 @@ impl Memory {
             }
         }
         Ok(traces)
+    }
+
+    /// What was done in the last `tasks` tasks, in the order in which they began: what can be read and was not taken back. In
+    /// time of the names of all episodes, and of the entries of these.
+    ///
+    /// # Errors
+    /// [`MemoryError`] if an entry cannot be read.
+    pub fn recent(&self, tasks: usize) -> Result<Vec<PastEpisode>, MemoryError> {
+        recent(&self.connection, &self.basis, tasks).map_err(|kind| kind.of(&self.file))
     }
 
     /// All entries, in the order in which they were written. In time and memory of the log.

@@ -1,7 +1,7 @@
 //! What was expected of an action, and what the states around it say came of it.
 
 use serde::{Deserialize, Serialize};
-use typelift_model::Symbol;
+use typelift_model::{GroundAtom, Symbol};
 
 /// The action of a model that an agent meant to carry out: a call alone does not say which of several actions with that
 /// call it was, nor which entities it concerns besides the call's arguments.
@@ -12,6 +12,12 @@ pub struct Expected {
     pub action: Symbol,
     /// The entities in place of all its parameters, in order.
     pub args: Vec<Symbol>,
+    /// What was to hold then, sorted.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub adds: Vec<GroundAtom>,
+    /// What was to hold no longer, sorted.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub deletes: Vec<GroundAtom>,
 }
 
 /// What came of an action, judged by comparing the states around it with what was expected. Files, events and accounts

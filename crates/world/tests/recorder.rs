@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use typelift_model::{Goal, GroundCall};
+use typelift_model::{Goal, GroundAtom, GroundCall};
 use typelift_world::{Expected, Recorder, Recording, Scene, TraceAction, TraceHeader, TraceReader, Verdict};
 
 fn scene(atom: &str) -> Scene {
@@ -13,7 +13,12 @@ fn scene(atom: &str) -> Scene {
 
 fn action(verdict: Verdict) -> TraceAction {
     let call = GroundCall { name: "GO".into(), args: vec!["a".into()] };
-    let expected = Some(Expected { action: "GO-block".into(), args: vec!["a".into()] });
+    let expected = Some(Expected {
+        action: "GO-block".into(),
+        args: vec!["a".into()],
+        adds: vec![GroundAtom::parse("at(a)").expect("an atom")],
+        deletes: Vec::new(),
+    });
     TraceAction { executed: Some(true), expected, verdict: Some(verdict), ..TraceAction::from(call) }
 }
 

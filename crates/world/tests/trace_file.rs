@@ -52,7 +52,12 @@ fn a_trace_is_read() {
 #[test]
 fn what_an_agent_meant_and_how_it_judged_is_read() {
     let trace = read(&[HEADER, STATE, MEANT, STATE]).expect("a trace");
-    let expected = Expected { action: Symbol::new("GO-block"), args: vec![Symbol::new("a")] };
+    let expected = Expected {
+        action: Symbol::new("GO-block"),
+        args: vec![Symbol::new("a")],
+        adds: vec![GroundAtom::parse("on(a)").expect("an atom")],
+        deletes: Vec::new(),
+    };
     assert_eq!(trace.actions[0].expected, Some(expected));
     assert_eq!(trace.actions[0].verdict, Some(Verdict::TimedOut));
     let error = refused(&[HEADER, STATE, &MEANT.replace("\"a\"", "\"b\""), STATE]);
@@ -304,7 +309,7 @@ prop_compose! {
         expected in prop::option::of((name(), prop::collection::vec(name(), 0..3))),
         verdict in prop::option::of(prop::sample::select(VERDICTS.to_vec())),
     ) -> TraceAction {
-        let expected = expected.map(|(action, args)| Expected { action, args });
+        let expected = expected.map(|(action, args)| Expected { action, args, adds: Vec::new(), deletes: Vec::new() });
         TraceAction { call: GroundCall { name, args }, executed, reason, time, expected, verdict }
     }
 }

@@ -41,6 +41,22 @@ fn nothing_is_imagined_twice() {
 }
 
 #[test]
+fn what_failed_in_one_process_is_not_tried_in_the_next() {
+    let folder = Folder::kitchen();
+    let fault = "K/faults/broken_cutboard_breadslicer_lettuce.json";
+    let outcome = |ended: &Ended| {
+        let account = accounts(ended).remove(0);
+        (account["solved"] == true, account["proposals"].as_i64(), account["failures"].as_array().map(Vec::len))
+    };
+    let run = || folder.run(&format!("run kitchen.json {fault} --kitchen --imagine --memory m --json"));
+    assert_eq!(outcome(&run()), (true, Some(3), Some(2)), "two tools are out of order");
+    assert_eq!(outcome(&run()), (true, Some(1), Some(0)));
+    // In another place things of these names are other things.
+    let elsewhere = folder.run(&format!("run {fault} --kitchen --imagine --memory m --json --instance there"));
+    assert_ne!(outcome(&elsewhere).2, Some(0), "{elsewhere}");
+}
+
+#[test]
 fn a_memory_and_a_record_are_the_same() {
     let folder = Folder::kitchen();
     let fault = "K/faults/broken_cutboard_lettuce.json";
