@@ -28,6 +28,7 @@ mod run;
 mod saved;
 mod suspect;
 mod turn;
+mod word;
 
 pub use account::{Account, Avoided, Ending, Failure, SeenDone, StoppedAt};
 pub use blame::BlameRule;
@@ -47,3 +48,4 @@ pub use saved::{EPISODE_FORMAT, RestoreError};
 pub use suspect::{Certainty, Condition, Suspect, Suspected};
 pub use turn::{Command, CommandId, Input};
 pub use typelift_imagine::{GivenUp, Loosening};
+pub use word::WordError;

@@ -3,8 +3,8 @@
 use thiserror::Error;
 use typelift_model::{Plan, State, Symbol};
 use typelift_world::{
-    Acted, Beginning, FileError, ParseError, Parser, Record, RecordSink, Reset, Scene, TraceAction, World, WorldError,
-    instance_of,
+    Acted, Beginning, FileError, ParseError, Parser, Record, RecordSink, Reply, Reset, Said, Scene, TraceAction, World,
+    WorldError, instance_of,
 };
 
 use crate::account::Account;
@@ -16,8 +16,10 @@ use crate::turn::{Command, CommandId, Input};
 /// The answer of the person who is asked about a plan.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Confirmation {
-    /// Execute it.
+    /// Execute it: nobody need be asked.
     Approve,
+    /// Execute it: a person said so.
+    Agree,
     /// Do not take this step, counted from 1; the plan is dropped.
     Reject {
         /// The step.
@@ -70,8 +72,12 @@ pub fn run(
 ) -> Result<Account, RunError> {
     let mut recording = RecordingObserver::new(observer, sinks);
     let mut input = Input::Started;
+    let mut spoken: Option<Said> = None;
     loop {
+        let told = episode.experience().failures().len();
         let command = episode.step(input, &mut recording);
+        let heard = spoken.take().and_then(|said| episode.understood(said, told));
+        recording.spoken(heard.as_ref());
         if let Some(error) = recording.error {
             return Err(error.into());
         }
@@ -90,12 +96,16 @@ pub fn run(
                 recording.observed(scene);
                 Input::Observation { id, state }
             }
-            Command::Propose { id, plan } => match confirm(&plan) {
-                Confirmation::Approve => Input::Approve { id },
-                Confirmation::Reject { step, objection, reason } => Input::Reject { id, step, objection, reason },
-                Confirmation::AnotherPlan => Input::AnotherPlan { id },
-                Confirmation::Stop => Input::Stop,
-            },
+            Command::Propose { id, plan } => {
+                let confirmation = confirm(&plan);
+                spoken = said(&confirmation, episode.instance());
+                match confirmation {
+                    Confirmation::Approve | Confirmation::Agree => Input::Approve { id },
+                    Confirmation::Reject { step, objection, reason } => Input::Reject { id, step, objection, reason },
+                    Confirmation::AnotherPlan => Input::AnotherPlan { id },
+                    Confirmation::Stop => Input::Stop,
+                }
+            }
             Command::Act { id, call } => {
                 recording.begin(world, episode.instance())?;
                 match world.act(&call) {
@@ -113,6 +123,17 @@ pub fn run(
             Command::Done(account) => return Ok(*account),
         };
     }
+}
+
+/// What a person said of a plan, if anything; of which step, and what follows, is seen once it was understood.
+fn said(confirmation: &Confirmation, instance: &Symbol) -> Option<Said> {
+    let (reply, because) = match confirmation {
+        Confirmation::Approve | Confirmation::Stop => return None,
+        Confirmation::Agree => (Reply::Yes, String::new()),
+        Confirmation::Reject { reason, .. } => (Reply::No, reason.clone()),
+        Confirmation::AnotherPlan => (Reply::Another, String::new()),
+    };
+    Some(Said { reply, instance: instance.clone(), call: None, because, experience: None })
 }
 
 /// The input that tells the result of an action.
@@ -144,13 +165,24 @@ struct RecordingObserver<'a, 's> {
     is_late: bool,
     /// What came of the action that is about to be judged.
     result: Option<StepRecord>,
+    /// The plan that was proposed last, until it is recorded.
+    proposed: Option<Plan>,
     /// Why a step could not be recorded; from then on nothing is told.
     error: Option<FileError>,
 }
 
 impl<'a, 's> RecordingObserver<'a, 's> {
     fn new(observer: &'a mut dyn Observer, sinks: &'a mut [&'s mut dyn RecordSink]) -> Self {
-        Self { observer, sinks, first: None, has_begun: false, is_late: false, result: None, error: None }
+        Self {
+            observer,
+            sinks,
+            first: None,
+            has_begun: false,
+            is_late: false,
+            result: None,
+            proposed: None,
+            error: None,
+        }
     }
 
     /// Something is about to be done: a trace begins if it is the first action after a reset, or the first of all.
@@ -168,6 +200,18 @@ impl<'a, 's> RecordingObserver<'a, 's> {
             self.has_begun = true;
         }
         Ok(())
+    }
+
+    /// A person said something, or nothing; and after that a plan may have been proposed.
+    fn spoken(&mut self, said: Option<&Said>) {
+        let proposed = self.proposed.take();
+        if self.error.is_none() {
+            let keep = |sink: &mut &mut dyn RecordSink| {
+                said.into_iter().try_for_each(|said| sink.said(said))?;
+                proposed.iter().try_for_each(|plan| sink.proposed(plan))
+            };
+            self.error = self.sinks.iter_mut().try_for_each(keep).err();
+        }
     }
 
     /// An action was answered.
@@ -201,6 +245,9 @@ impl Observer for RecordingObserver<'_, '_> {
     }
 
     fn event(&mut self, event: &Event) {
+        if let Event::Proposed { plan, .. } = event {
+            self.proposed = Some(plan.clone());
+        }
         if self.error.is_none() {
             self.observer.event(event);
         }

@@ -72,7 +72,7 @@ pub(crate) fn confirm(which: Option<Which>, plan: &Plan, model: &ActionModel, in
 fn read(answer: &str, plan: &Plan, model: &ActionModel, usual: usize) -> Result<Confirmation, String> {
     let words: Vec<&str> = answer.split_whitespace().collect();
     let (step, reason) = match *words {
-        ["y" | "yes"] => return Ok(Confirmation::Approve),
+        ["y" | "yes"] => return Ok(Confirmation::Agree),
         ["a" | "another"] => return Ok(Confirmation::AnotherPlan),
         ["s" | "stop"] => return Ok(Confirmation::Stop),
         ["?" | "h" | "help"] => return Err(HELP.to_owned()),

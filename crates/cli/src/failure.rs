@@ -120,6 +120,7 @@ impl From<MemoryError> for Failure {
                 Some("A memory is of one hierarchy and one way of reading scenes: begin another one for this model.")
             }
             MemoryErrorKind::Compact { .. } => Some("Learn it anew from its traces, without `--compact`."),
+            MemoryErrorKind::NotSaid(_) => Some("`typelift memory log FILE` lists the entries, each with its number."),
             kind => kind.hint(),
         };
         Self { hint: hint.map(str::to_owned), ..Self::bad_input(error) }

@@ -13,10 +13,9 @@ use typelift::world::{
     DomainFile, FileError, ParseError, ParseErrorKind, Parser, TaskError, TaskFile, is_pddl, model_problem_from_text,
     read_text, read_types,
 };
-use typelift_memory::looks_like_memory;
+use typelift_memory::{Access, Memory, looks_like_memory};
 
 use crate::failure::{Failure, NOT_AS_WRITTEN, about_goal};
-use crate::remembered::read_remembered;
 use crate::style::{HINT, WARNING};
 
 /// Warnings of files that are said.
@@ -36,6 +35,17 @@ pub(crate) fn read_model_input(path: &Path, types: Option<&PathBuf>, quiet: bool
         return read_remembered(path, types, quiet);
     }
     model_input_from_text(path, read_text(path)?, types)
+}
+
+/// The model that a memory has learned.
+pub(crate) fn read_remembered(file: &Path, types: Option<&PathBuf>, quiet: bool) -> Result<ModelInput, Failure> {
+    let memory = Memory::open(file, Access::Read)?;
+    if !quiet {
+        warn_unread(&memory);
+    }
+    let mut learned = memory.learned().clone();
+    add_types(&mut learned, types)?;
+    Ok(ModelInput::Learned(Box::new(learned)))
 }
 
 /// As [`read_model_input`], from the text of the model or domain.
@@ -246,6 +256,13 @@ pub(crate) fn warn_of_misfits(problem: &Path, misfits: &[String]) {
         anstream::eprintln!(
             "{WARNING}warning{WARNING:#}: {problem}: {several} not of the types that the predicate declares: {first}"
         );
+    }
+}
+
+/// Says which parts of a memory nothing is learned from.
+pub(crate) fn warn_unread(memory: &Memory) {
+    for unread in memory.unread() {
+        anstream::eprintln!("{WARNING}warning{WARNING:#}: {}: {unread}", memory.file().display());
     }
 }
 

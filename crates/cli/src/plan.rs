@@ -14,12 +14,12 @@ use typelift::world::write_file;
 
 use crate::exit::Exit;
 use crate::failure::Failure;
+use crate::files::read_remembered;
 use crate::limits::{Clock, Interrupt, Limits, what_to_try};
 use crate::no_plan::{for_task, say_hint, say_undemonstrated};
 use crate::overwriting::{Output, keep_inputs, numbered};
 use crate::plan_file::plan_file;
 use crate::planning_options::PlanningOptions;
-use crate::remembered::read_remembered;
 use crate::resident::memory_held_from_now;
 use crate::style::{BAD, HEAD, HINT, WARNING, painted};
 use crate::waiting::Waiting;

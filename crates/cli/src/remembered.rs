@@ -10,19 +10,7 @@ use typelift::world::is_pddl;
 use typelift_memory::{Access, Memory, MemoryError, MemoryErrorKind, PastEpisode};
 
 use crate::failure::Failure;
-use crate::files::{ModelInput, add_types};
-use crate::style::WARNING;
-
-/// The model that a memory has learned.
-pub(crate) fn read_remembered(file: &Path, types: Option<&PathBuf>, quiet: bool) -> Result<ModelInput, Failure> {
-    let memory = Memory::open(file, Access::Read)?;
-    if !quiet {
-        warn_unread(&memory);
-    }
-    let mut learned = memory.learned().clone();
-    add_types(&mut learned, types)?;
-    Ok(ModelInput::Learned(Box::new(learned)))
-}
+use crate::files::{ModelInput, add_types, warn_unread};
 
 /// Whether a text is a task rather than a model. A memory is of learned models, so that what is PDDL is a problem.
 pub(crate) fn is_task(text: &str) -> bool {
@@ -110,7 +98,7 @@ impl Remembered {
 /// their types are known.
 const RECALLED: usize = 50;
 
-/// What was tried in the tasks before, and what else the model was learned from.
+/// What was tried in the tasks before and said by people, and what else the model was learned from.
 pub(crate) fn recall(memory: &Memory) -> Result<(Observations, Experience), Failure> {
     let (mut experience, mut evidence) = (Experience::new(), memory.learned().evidence.clone());
     for PastEpisode { source, instance, trace, goes_on } in memory.recent(RECALLED)? {
@@ -119,12 +107,17 @@ pub(crate) fn recall(memory: &Memory) -> Result<(Observations, Experience), Fail
         let recalled = Recalled { trace: &trace, instance: &instance, goes_on };
         experience.recall(&recalled, &memory.learned().model);
     }
+    hear(memory, &mut experience)?;
     Ok((evidence.total().into_owned(), experience))
 }
 
-/// Says which parts of a memory nothing is learned from.
-pub(crate) fn warn_unread(memory: &Memory) {
-    for unread in memory.unread() {
-        anstream::eprintln!("{WARNING}warning{WARNING:#}: {}: {unread}", memory.file().display());
+/// Takes in what people said in the runs before.
+fn hear(memory: &Memory, experience: &mut Experience) -> Result<(), Failure> {
+    for (entry, said) in memory.words()? {
+        experience.hear(&said).map_err(|error| {
+            let what = format!("{}: entry {entry}: {error}", memory.file().display());
+            Failure::bad_input(what).with_hint(format!("`typelift memory forget --word {entry}` takes it back."))
+        })?;
     }
+    Ok(())
 }

@@ -9,9 +9,8 @@ use typelift::words::{Description, count, describe_action, describe_axiom};
 
 use crate::exit::Exit;
 use crate::failure::{Failure, or_one_of};
-use crate::files::{ModelInput, read_model_input};
+use crate::files::{ModelInput, read_model_input, read_remembered};
 use crate::learn_report::refused_merges;
-use crate::remembered::read_remembered;
 use crate::show_vocabulary::{list_predicates, list_types};
 use crate::style::described;
 

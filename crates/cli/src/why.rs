@@ -13,8 +13,7 @@ use typelift::world::{FileError, Parser, TraceReader, is_trace, read_text, trace
 
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::files::{ModelInput, TaskInput, read_model_input};
-use crate::remembered::read_remembered;
+use crate::files::{ModelInput, TaskInput, read_model_input, read_remembered};
 use crate::style::{HINT, painted};
 
 /// Say how likely a call works, and what speaks against it

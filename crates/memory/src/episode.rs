@@ -5,8 +5,8 @@ use std::path::Path;
 use rusqlite::Connection;
 use serde::Serialize;
 use serde_json::value::{RawValue, to_raw_value};
-use typelift_model::SourceId;
-use typelift_world::{Beginning, FileError, RecordSink, Scene, TraceAction, TraceHeader, TraceLine, source_of};
+use typelift_model::{Plan, SourceId, Step};
+use typelift_world::{Beginning, FileError, RecordSink, Said, Scene, TraceAction, TraceHeader, TraceLine, source_of};
 
 use crate::error::{MemoryError, MemoryErrorKind};
 use crate::log::{self, Kind, append, trace_text};
@@ -54,6 +54,12 @@ impl<'m> EpisodeLog<'m> {
         Ok(())
     }
 
+    /// Keeps what was proposed or said: it is of the task, and not of what happened.
+    fn note(&self, kind: Kind, content: &impl Serialize) -> Result<(), FileError> {
+        let noted = append(self.connection, kind, None, content);
+        noted.map(|_| ()).map_err(|kind| kind.of(self.file).into())
+    }
+
     fn add(&mut self, action: &TraceAction, after: &Scene) -> Result<(), MemoryErrorKind> {
         let Some((episode, before)) = &mut self.current else { return Err(MemoryErrorKind::NotBegun) };
         let change = SceneChange::between(before, after);
@@ -71,6 +77,17 @@ impl RecordSink for EpisodeLog<'_> {
 
     fn step(&mut self, action: &TraceAction, after: &Scene) -> Result<(), FileError> {
         self.add(action, after).map_err(|kind| kind.of(self.file).into())
+    }
+
+    fn proposed(&mut self, plan: &Plan) -> Result<(), FileError> {
+        let step = |step: &Step| log::ProposedStep { call: step.call.clone(), imagined: step.imagined.is_some() };
+        let steps = plan.steps.iter().map(step).collect();
+        let proposed = log::Proposed { task: self.header.task.clone(), steps };
+        self.note(Kind::Proposed, &proposed)
+    }
+
+    fn said(&mut self, said: &Said) -> Result<(), FileError> {
+        self.note(Kind::Said, &log::Said { task: self.header.task.clone(), said: said.clone() })
     }
 }
 

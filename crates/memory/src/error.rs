@@ -81,6 +81,9 @@ pub enum MemoryErrorKind {
     /// Nothing was learned from this source, or it was taken back already.
     #[error("nothing is known from {}", .0.short())]
     NotKnown(SourceId),
+    /// This entry is nothing that a person said, or it was taken back already.
+    #[error("entry {0} is nothing that a person said, or is taken back already")]
+    NotSaid(i64),
     /// Something was said to have happened before anything was observed.
     #[error("nothing was observed before the first action")]
     NotBegun,

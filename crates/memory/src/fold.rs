@@ -63,7 +63,7 @@ impl Fold {
         // First, since what was seen again after it was taken back counts again.
         for entry in list(connection, Wanted::After(Kind::Forgotten, from))? {
             let log::Forgotten { source, entries } = entry.content()?;
-            if entries.iter().any(|entry| *entry <= from) {
+            if let Some(source) = source.filter(|_| entries.iter().any(|entry| *entry <= from)) {
                 // What never was compact is not compact now.
                 let _ = self.evidence.take_out(source);
             }
@@ -122,7 +122,7 @@ pub(crate) fn taken_back(connection: &Connection) -> Result<BTreeSet<(i64, Sourc
     let mut all = BTreeSet::new();
     for entry in list(connection, Wanted::Of(Kind::Forgotten))? {
         let log::Forgotten { source, entries } = entry.content()?;
-        all.extend(entries.into_iter().map(|number| (number, source)));
+        all.extend(source.into_iter().flat_map(|source| entries.iter().map(move |number| (*number, source))));
     }
     Ok(all)
 }

@@ -13,6 +13,7 @@ use rusqlite::{Connection, OpenFlags, TransactionBehavior};
 use tempfile::TempDir;
 
 use crate::error::MemoryErrorKind;
+use crate::migration::{is_readable, migrate};
 use crate::version::VERSION;
 
 /// `tlmy`: what tells a memory from other databases.
@@ -86,7 +87,10 @@ pub(crate) fn open(path: &Path, access: Access) -> Result<Connection, MemoryErro
     match access {
         Access::Read => connection.pragma_update(None, "query_only", true)?,
         Access::Write if connection.is_readonly("main")? => return Err(MemoryErrorKind::ReadOnly),
-        Access::Write => durable(&connection)?,
+        Access::Write => {
+            durable(&connection)?;
+            migrate(&mut connection)?;
+        }
     }
     Ok(connection)
 }
@@ -100,6 +104,7 @@ pub(crate) fn create(path: &Path, basis: &str) -> Result<Connection, MemoryError
     let mut connection = connect(path, OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_CREATE)?;
     if is_memory(&connection)? {
         durable(&connection)?;
+        migrate(&mut connection)?;
         return Ok(connection);
     }
     durable(&connection)?;
@@ -173,7 +178,7 @@ pub(crate) fn open_damaged(path: &Path) -> Result<(Connection, Option<TempDir>),
     connection.pragma_update(None, "writable_schema", true)?;
     let number = |pragma| connection.pragma_query_value(None, pragma, |row| row.get::<_, i64>(0));
     match (number("application_id")?, number("user_version")?) {
-        (APPLICATION, VERSION) => Ok((connection, folder)),
+        (APPLICATION, found) if is_readable(found) => Ok((connection, folder)),
         (APPLICATION, found) => Err(MemoryErrorKind::Version { found }),
         _ => Err(MemoryErrorKind::NotAMemory),
     }
@@ -208,7 +213,7 @@ fn is_memory(connection: &Connection) -> Result<bool, MemoryErrorKind> {
     match (number("application_id")?, tables) {
         (0, 0) => Ok(false),
         (APPLICATION, _) => match number("user_version")? {
-            VERSION => Ok(true),
+            found if is_readable(found) => Ok(true),
             found => Err(MemoryErrorKind::Version { found }),
         },
         _ => Err(MemoryErrorKind::NotAMemory),

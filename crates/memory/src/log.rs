@@ -4,7 +4,7 @@ use rusqlite::types::Type;
 use rusqlite::{Connection, Row, params};
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
-use typelift_model::{SourceId, Symbol};
+use typelift_model::{GroundCall, SourceId, Symbol};
 use typelift_world::{Scene, Trace, TraceLine};
 
 use crate::error::MemoryErrorKind;
@@ -22,12 +22,17 @@ pub(crate) enum Kind {
     Stepped,
     /// An episode ends: [`Ended`].
     Ended,
-    /// A source is taken back: [`Forgotten`].
+    /// A plan is proposed: [`Proposed`].
+    Proposed,
+    /// A person said something: [`Said`].
+    Said,
+    /// Something is taken back: [`Forgotten`].
     Forgotten,
 }
 
 impl Kind {
-    const ALL: [Self; 5] = [Self::Evidence, Self::Begun, Self::Stepped, Self::Ended, Self::Forgotten];
+    const ALL: [Self; 7] =
+        [Self::Evidence, Self::Begun, Self::Stepped, Self::Ended, Self::Proposed, Self::Said, Self::Forgotten];
 
     pub(crate) const fn word(self) -> &'static str {
         match self {
@@ -35,6 +40,8 @@ impl Kind {
             Self::Begun => "begun",
             Self::Stepped => "stepped",
             Self::Ended => "ended",
+            Self::Proposed => "proposed",
+            Self::Said => "said",
             Self::Forgotten => "forgotten",
         }
     }
@@ -78,9 +85,37 @@ pub(crate) struct Ended {
 }
 
 #[derive(Serialize, Deserialize)]
+pub(crate) struct Proposed {
+    /// The task's name.
+    pub(crate) task: String,
+    pub(crate) steps: Vec<ProposedStep>,
+}
+
+/// A step of a plan that was proposed.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ProposedStep {
+    /// What the environment would be told.
+    pub call: GroundCall,
+    /// Whether it rests on an imagined action.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub imagined: bool,
+}
+
+#[derive(Serialize, Deserialize)]
+pub(crate) struct Said {
+    /// The task's name.
+    pub(crate) task: String,
+    #[serde(flatten)]
+    pub(crate) said: typelift_world::Said,
+}
+
+#[derive(Serialize, Deserialize)]
 pub(crate) struct Forgotten {
-    pub(crate) source: SourceId,
-    /// The entries from which it was known: [`Evidence`], or the beginning of an episode.
+    /// A source; none where it is what a person said.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) source: Option<SourceId>,
+    /// The entries from which it was known: [`Evidence`], or the beginning of an episode. Or those that are taken back
+    /// themselves.
     pub(crate) entries: Vec<i64>,
 }
 
@@ -200,7 +235,7 @@ impl TraceWriter {
                 let Stepped { action, change } = entry.content()?;
                 (action, change.of(before)?)
             }
-            (Kind::Ended, before) => {
+            (Kind::Ended | Kind::Proposed | Kind::Said, before) => {
                 self.scene = before;
                 return Ok(());
             }

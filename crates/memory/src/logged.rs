@@ -2,10 +2,10 @@
 
 use rusqlite::Connection;
 use typelift_model::{SourceId, Symbol};
-use typelift_world::{TraceAction, TraceHeader};
+use typelift_world::{Said, TraceAction, TraceHeader};
 
 use crate::error::MemoryErrorKind;
-use crate::log::{self, Entry, Kind, Wanted, list};
+use crate::log::{self, Entry, Kind, ProposedStep, Wanted, list};
 
 /// An entry of the log.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,11 +48,25 @@ pub enum What {
         /// The source that it is.
         source: SourceId,
     },
-    /// A source was taken back.
+    /// A plan was proposed.
+    Proposed {
+        /// The task's name.
+        task: String,
+        /// Its steps.
+        steps: Vec<ProposedStep>,
+    },
+    /// A person said something.
+    Said {
+        /// The task's name.
+        task: String,
+        /// What.
+        said: Box<Said>,
+    },
+    /// Something was taken back.
     Forgotten {
-        /// The source.
-        source: SourceId,
-        /// The entries from which it was known.
+        /// The source; none if it is what a person said.
+        source: Option<SourceId>,
+        /// The entries from which it was known, or that are taken back themselves.
         entries: Vec<i64>,
     },
 }
@@ -80,6 +94,14 @@ pub(crate) fn told(entry: Entry) -> Result<Logged, MemoryErrorKind> {
         Kind::Ended => {
             let log::Ended { how, source } = entry.content()?;
             What::Ended { how, source }
+        }
+        Kind::Proposed => {
+            let log::Proposed { task, steps } = entry.content()?;
+            What::Proposed { task, steps }
+        }
+        Kind::Said => {
+            let log::Said { task, said } = entry.content()?;
+            What::Said { task, said: Box::new(said) }
         }
         Kind::Forgotten => {
             let log::Forgotten { source, entries } = entry.content()?;

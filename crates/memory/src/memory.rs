@@ -6,7 +6,7 @@ use rusqlite::{Connection, TransactionBehavior, params};
 use serde_json::value::RawValue;
 use typelift_learn::learn_evidence;
 use typelift_model::{ActionModel, Evidence, LearnedModel, ParseConfig, SourceId, Symbol};
-use typelift_world::{TraceHeader, source_of};
+use typelift_world::{Said, TraceHeader, source_of};
 
 use crate::episode::EpisodeLog;
 use crate::error::{MemoryError, MemoryErrorKind};
@@ -15,6 +15,7 @@ use crate::format::{self, Access};
 use crate::log::{self, Kind, Wanted, append, list, trace_text};
 use crate::logged::{Logged, logged};
 use crate::recent::{PastEpisode, recent};
+use crate::words::words;
 
 /// The sum is written down once the log has grown by one part in so many: all that is written so, over the years, is in
 /// proportion to the log.
@@ -233,9 +234,33 @@ impl Memory {
         if entries.is_empty() {
             return Err(MemoryErrorKind::NotKnown(source));
         }
-        append(&transaction, Kind::Forgotten, None, &log::Forgotten { source, entries })?;
+        append(&transaction, Kind::Forgotten, None, &log::Forgotten { source: Some(source), entries })?;
         transaction.commit()?;
         self.learn()
+    }
+
+    /// What people said and was not taken back, each with the number of its entry, in the order in which it was said.
+    ///
+    /// # Errors
+    /// [`MemoryError`] if an entry cannot be read.
+    pub fn words(&self) -> Result<Vec<(i64, Said)>, MemoryError> {
+        words(&self.connection).map_err(|kind| kind.of(&self.file))
+    }
+
+    /// Takes back what a person said: the entry with this number. It stays in the log.
+    ///
+    /// # Errors
+    /// [`MemoryError`]: of kind [`NotSaid`](MemoryErrorKind::NotSaid) if that is no word, or was taken back before.
+    pub fn take_back(&mut self, entry: i64) -> Result<(), MemoryError> {
+        let mut take_back = || {
+            let transaction = self.connection.transaction_with_behavior(TransactionBehavior::Immediate)?;
+            if words(&transaction)?.iter().all(|(number, _)| *number != entry) {
+                return Err(MemoryErrorKind::NotSaid(entry));
+            }
+            append(&transaction, Kind::Forgotten, None, &log::Forgotten { source: None, entries: vec![entry] })?;
+            Ok(transaction.commit()?)
+        };
+        take_back().map_err(|kind| kind.of(&self.file))
     }
 
     /// The episodes that were not taken back, as the traces that they are, each with its name and its text, in order.

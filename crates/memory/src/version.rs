@@ -1,4 +1,4 @@
 //! Which version of the format is read and written.
 
-/// The version of the format that this program reads and writes.
-pub const VERSION: i64 = 1;
+/// The version of the format that this program writes. It reads earlier ones, too.
+pub const VERSION: i64 = 2;

@@ -28,13 +28,13 @@ fn what_is_no_memory() {
     fs::write(path("empty"), "").expect("written");
     Connection::open(path("other")).and_then(|db| db.execute_batch("CREATE TABLE t (x)")).expect("a database");
     empty(folder.path(), "newer");
-    Connection::open(path("newer")).and_then(|db| db.pragma_update(None, "user_version", 2)).expect("changed");
+    Connection::open(path("newer")).and_then(|db| db.pragma_update(None, "user_version", 9)).expect("changed");
     for access in [Access::Read, Access::Write] {
         assert_eq!(kind(&path("missing"), access), MemoryErrorKind::Missing);
         assert_eq!(kind(&path("empty"), access), MemoryErrorKind::Missing);
         assert_eq!(kind(&path("text"), access), MemoryErrorKind::NotAMemory);
         assert_eq!(kind(&path("other"), access), MemoryErrorKind::NotAMemory);
-        assert_eq!(kind(&path("newer"), access), MemoryErrorKind::Version { found: 2 });
+        assert_eq!(kind(&path("newer"), access), MemoryErrorKind::Version { found: 9 });
         assert!(matches!(kind(folder.path(), access), MemoryErrorKind::CannotOpen(_)));
     }
     assert!(!path("missing").exists(), "nothing is made by looking");

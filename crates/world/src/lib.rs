@@ -20,6 +20,7 @@ mod protocol;
 mod record_sink;
 mod recorder;
 mod recording;
+mod said;
 mod snapshot;
 mod source;
 mod task_file;
@@ -49,6 +50,7 @@ pub use protocol::{Answer, PROTOCOL, Request, RequestBody, unread_keys_of_answer
 pub use record_sink::{Beginning, RecordSink};
 pub use recorder::Recorder;
 pub use recording::Recording;
+pub use said::{Reply, Said};
 pub use snapshot::{Entity, Relation, Scene, Snapshot, Value};
 pub use source::{source_of, source_of_file};
 pub use task_file::{TASK_FORMAT, TaskError, TaskFile, read_task, write_task};

@@ -1,8 +1,8 @@
 //! Who is given what happens in an environment, to keep it.
 
-use typelift_model::Symbol;
+use typelift_model::{Plan, Symbol};
 
-use crate::{FileError, Recorder, Scene, TraceAction};
+use crate::{FileError, Recorder, Said, Scene, TraceAction};
 
 /// Where the environment is, when something is about to be done in it for the first time after it was set up.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,6 +29,22 @@ pub trait RecordSink {
     /// # Errors
     /// [`FileError`] if it cannot be kept, or if nothing was begun.
     fn step(&mut self, action: &TraceAction, after: &Scene) -> Result<(), FileError>;
+
+    /// A plan is proposed. Whoever keeps what happened only need not keep that.
+    ///
+    /// # Errors
+    /// [`FileError`] if it cannot be kept.
+    fn proposed(&mut self, _plan: &Plan) -> Result<(), FileError> {
+        Ok(())
+    }
+
+    /// A person said something of the plan that was proposed last, and it was understood.
+    ///
+    /// # Errors
+    /// [`FileError`] if it cannot be kept.
+    fn said(&mut self, _said: &Said) -> Result<(), FileError> {
+        Ok(())
+    }
 }
 
 /// A trace says what is observed, and not where.

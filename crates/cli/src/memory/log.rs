@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::io::Write;
 
 use typelift::words::count;
-use typelift::world::{TraceAction, Verdict};
-use typelift_memory::{Logged, Memory, What};
+use typelift::world::{Reply, Said, TraceAction, Verdict};
+use typelift_memory::{Logged, Memory, ProposedStep, What};
 
 use crate::exit::Exit;
 use crate::failure::{Failure, printable_lines};
@@ -34,8 +34,36 @@ fn said(what: What, task: &str) -> String {
         }
         What::Stepped(action) => step(&action),
         What::Ended { how, source } => format!("{task} ends: {} ({})", how.replace('_', " "), source.short()),
-        What::Forgotten { source, .. } => format!("{} is taken back", source.short()),
+        What::Proposed { task, steps } => proposed(&task, &steps),
+        What::Said { task, said } => word(&task, &said),
+        What::Forgotten { source: Some(source), .. } => format!("{} is taken back", source.short()),
+        What::Forgotten { source: None, entries } => {
+            let entries: Vec<String> = entries.iter().map(|entry| format!("entry {entry}")).collect();
+            format!("{} is taken back", entries.join(", "))
+        }
     }
+}
+
+fn proposed(task: &str, steps: &[ProposedStep]) -> String {
+    let imagined = steps.iter().filter(|step| step.imagined).count();
+    let imagined = if imagined == 0 { String::new() } else { format!(", {imagined} imagined") };
+    format!("{task}: a plan of {} is proposed{imagined}", count(steps.len() as u64, "step"))
+}
+
+fn word(task: &str, said: &Said) -> String {
+    format!("{task}: a person says {}", in_words(said))
+}
+
+/// What a person said.
+pub(super) fn in_words(Said { reply, call, because, .. }: &Said) -> String {
+    let call = call.as_ref().map(|call| format!(" to {call}")).unwrap_or_default();
+    let because = if because.is_empty() { String::new() } else { format!(": {because}") };
+    let reply = match reply {
+        Reply::Yes => "yes",
+        Reply::No => "no",
+        Reply::Another => "another plan is wanted",
+    };
+    format!("{reply}{call}{because}")
 }
 
 fn step(TraceAction { call, reason, verdict, .. }: &TraceAction) -> String {

@@ -11,13 +11,13 @@ use typelift::words::count;
 use typelift_memory::{Access, Memory, Merged, Rescued, What, check, merge, rescue};
 
 use crate::exit::Exit;
-use crate::failure::Failure;
+use crate::failure::{Failure, printable_lines};
+use crate::files::warn_unread;
 use crate::learn_into::source_called;
-use crate::remembered::warn_unread;
 use crate::show::overview;
 use crate::style::BAD;
 use export::export;
-use log::list;
+use log::{in_words, list};
 
 /// Say what a memory knows, and take things back
 #[derive(Debug, clap::Args)]
@@ -96,18 +96,23 @@ known again.")]
         #[arg(long, short, value_name = "FILE")]
         output: PathBuf,
     },
-    /// Take demonstrations or episodes back: the model is as if they had never been
+    /// Take demonstrations, episodes or words back: the model is as if they had never been
     #[command(after_help = "Examples:
   typelift memory forget robot.memory 3f9a01c2
   typelift memory forget robot.memory cut-a-lettuce.jsonl
+  typelift memory forget robot.memory --word 12
 
-`typelift memory log` lists the ids. The entries stay in the file.")]
+`typelift memory log` lists the ids and, in front, the numbers of entries. The
+entries stay in the file.")]
     Forget {
         /// The memory
         file: PathBuf,
         /// Each by a file with its content, its name, or the first digits of its id
-        #[arg(required = true, value_name = "SOURCE")]
+        #[arg(required_unless_present = "word", value_name = "SOURCE")]
         sources: Vec<String>,
+        /// What a person said, by the number of its entry
+        #[arg(long, value_name = "ENTRY")]
+        word: Vec<i64>,
     },
 }
 
@@ -122,7 +127,7 @@ impl MemoryCommand {
             Command::Merge { files, output } => merge_into(files, output, quiet),
             Command::Check { file } => report(file),
             Command::Rescue { file, output } => save(file, output, quiet),
-            Command::Forget { file, sources } => forget(file, sources, quiet),
+            Command::Forget { file, sources, word } => forget(file, sources, word, quiet),
         }
     }
 }
@@ -136,20 +141,26 @@ fn read(file: &Path, quiet: bool) -> Result<Memory, Failure> {
 }
 
 fn show(memory: &Memory) -> Result<Exit, Failure> {
-    let (mut demonstrations, mut episodes, mut steps, mut taken_back) = (0, 0, 0, 0);
+    let (mut demonstrations, mut episodes, mut steps, mut words, mut taken_back) = (0, 0, 0, 0, 0);
     for entry in memory.entries()? {
         match entry.what {
             What::Evidence { sources, .. } => demonstrations += sources as u64,
             What::Begun { .. } => episodes += 1,
             What::Stepped(_) => steps += 1,
             What::Forgotten { .. } => taken_back += 1,
-            What::Ended { .. } => {}
+            What::Said { .. } => words += 1,
+            What::Ended { .. } | What::Proposed { .. } => {}
         }
     }
     let mut out = anstream::stdout().lock();
     let taken_back = if taken_back == 0 { String::new() } else { format!("; {taken_back} taken back") };
+    let words = if words == 0 { String::new() } else { format!(", {} of a person", count(words, "word")) };
     let seen = [count(demonstrations, "demonstration"), count(episodes, "episode"), count(steps, "step")];
-    writeln!(out, "{}{taken_back}", seen.join(", "))?;
+    writeln!(out, "{}{words}{taken_back}", seen.join(", "))?;
+    // That a plan was agreed to says nothing of another one.
+    for (entry, said) in memory.words()?.iter().filter(|(_, said)| said.experience.is_some()) {
+        writeln!(out, "a person said {}  (entry {entry})", printable_lines(&in_words(said)))?;
+    }
     overview(&mut out, memory.learned())?;
     Ok(Exit::Success)
 }
@@ -199,7 +210,7 @@ fn report(file: &Path) -> Result<Exit, Failure> {
     Ok(if found.problems.is_empty() { Exit::Success } else { Exit::NotAchieved })
 }
 
-fn forget(file: &Path, sources: &[String], quiet: bool) -> Result<Exit, Failure> {
+fn forget(file: &Path, sources: &[String], words: &[i64], quiet: bool) -> Result<Exit, Failure> {
     let mut memory = Memory::open(file, Access::Write)?;
     let evidence = &memory.learned().evidence;
     let called = |text: &String| source_called(evidence, text, "");
@@ -209,6 +220,12 @@ fn forget(file: &Path, sources: &[String], quiet: bool) -> Result<Exit, Failure>
         memory.forget(id)?;
         if !quiet {
             anstream::eprintln!("took back {} ({})", name.unwrap_or_default(), id.short());
+        }
+    }
+    for word in words {
+        memory.take_back(*word)?;
+        if !quiet {
+            anstream::eprintln!("took back entry {word}");
         }
     }
     Ok(Exit::Success)

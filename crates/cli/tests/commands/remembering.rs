@@ -128,7 +128,7 @@ fn what_a_memory_knows_is_told_and_taken_back() {
     let shown = folder.run("memory show m");
     assert!(shown.out.starts_with("8 demonstrations, 2 episodes, 14 steps\n"), "{shown}");
     let checked = folder.run("memory check m");
-    assert_eq!((checked.code, checked.out.as_str()), (0, "19 entries can be read\n"), "{checked}");
+    assert_eq!((checked.code, checked.out.as_str()), (0, "22 entries can be read\n"), "{checked}");
     let exported = folder.run("memory export m --traces T -o after.json");
     exported.succeeds();
     assert_eq!(exported.err, "wrote 2 traces to T\nwrote after.json\n");
@@ -279,11 +279,11 @@ fn two_memories_become_one() {
     folder.run(&format!("run kitchen.json {APPLE} --kitchen --imagine --record R -q")).succeeds();
     let merged = folder.run("memory merge m n -o both");
     merged.succeeds();
-    assert_eq!(merged.err, "wrote both with 22 entries, 8 of them in more than one\n");
+    assert_eq!(merged.err, "wrote both with 25 entries, 9 of them in more than one\n");
     folder.run("memory merge n m -o again -q").succeeds();
     folder.run("learn --into kitchen.json R -o learned.json -q").succeeds();
     for memory in ["both", "again"] {
-        assert_eq!(folder.run(&format!("memory check {memory}")).out, "22 entries can be read\n");
+        assert_eq!(folder.run(&format!("memory check {memory}")).out, "25 entries can be read\n");
         folder.run(&format!("memory export {memory} -o {memory}.json -q")).succeeds();
         assert_eq!(folder.read(&format!("{memory}.json")), folder.read("learned.json"), "as if learned from both");
     }
@@ -400,4 +400,39 @@ fn a_memory_that_cannot_be_written_can_be_read() {
         assert!(said.contains("m: it cannot be written to\nhint: Let it be written, or copy it"), "{said}");
     }
     forbid("", 0o755);
+}
+
+#[test]
+fn what_a_person_said_counts_in_the_next_run() {
+    let folder = Folder::kitchen();
+    let run = |model: &str, answers: &str| {
+        let command = format!("run {model} {APPLE} --kitchen --imagine --memory m --confirm=all --instance here");
+        folder.run_with_input(&command, answers)
+    };
+    let first = run("kitchen.json", "n 3 kind blender_1\nn 2 broken breadslicer_1\nn 2 now\na\ns\n");
+    assert_eq!(first.code, 12, "{first}");
+    let next = run("", "s\n");
+    let proposed = |ended: &Ended, object: &str| ended.err.contains(&format!("PLACE(agent_1, {object}, apple_1)"));
+    assert!(!proposed(&next, "blender_1") && !proposed(&next, "breadslicer_1"), "{next}");
+    assert!(proposed(&next, "contactgrill_1"), "what was not wanted in one task may be wanted in another: {next}");
+    insta::assert_snapshot!("memory-words", folder.run("memory log m"));
+    let shown = folder.run("memory show m");
+    let said = "8 demonstrations, 0 episodes, 0 steps, 4 words of a person\n\
+                a person said no to USE(agent_1, blender_1, apple_1): wrong kind  (entry 3)\n\
+                a person said no to PLACE(agent_1, breadslicer_1, apple_1): broken  (entry 5)\n";
+    assert!(shown.out.starts_with(said), "{shown}");
+    // Elsewhere a thing of that name is another one; a kind is the same.
+    let elsewhere = folder
+        .run_with_input(&format!("run {APPLE} --kitchen --imagine --memory m --confirm=all --instance there"), "s\n");
+    assert!(proposed(&elsewhere, "breadslicer_1") && !proposed(&elsewhere, "blender_1"), "{elsewhere}");
+    let taken_back = folder.run("memory forget m --word 3 --word 5");
+    assert_eq!((taken_back.code, taken_back.err.as_str()), (0, "took back entry 3\ntook back entry 5\n"));
+    assert!(proposed(&run("", "s\n"), "blender_1"), "as if it had never been said");
+    for entry in [3, 1, 999] {
+        folder.refuses(31, &format!("memory forget m --word {entry}"));
+    }
+    folder.run("memory check m").succeeds();
+    // The model is of what was seen.
+    folder.run("memory export m -o m.json -q").succeeds();
+    assert_eq!(folder.read("m.json"), folder.read("kitchen.json"));
 }
