@@ -38,11 +38,13 @@ impl StepResult {
         }
     }
 
-    /// What came of a step, in words: where only part of the expected effect happened, with what of it is missing; where
-    /// something else did, with what.
+    /// What came of a step, in words: where only part of the expected effect happened, with what of it is missing and
+    /// what happened; where something else did, with what.
     pub fn in_words(self, missed: &[String], added: &[GroundAtom], deleted: &[GroundAtom]) -> String {
         let told = match self {
-            Self::Tried(Verdict::Partly) => vec![told("missing", missed)],
+            Self::Tried(Verdict::Partly) => {
+                vec![told("missing", missed), told("added", added), told("deleted", deleted)]
+            }
             Self::Tried(Verdict::Otherwise) => vec![told("added", added), told("deleted", deleted)],
             _ => Vec::new(),
         };
@@ -170,7 +172,7 @@ mod tests {
         };
         assert_eq!(
             said(Verdict::Partly, &few, &few),
-            "only part of the expected effect happened (missing: shut(), not lit(l0))"
+            "only part of the expected effect happened (missing: shut(), not lit(l0); added: lit(l0); deleted: lit(l0))"
         );
         assert_eq!(said(Verdict::Otherwise, &few, &[]), "something else happened (added: lit(l0))");
         assert_eq!(

@@ -39,6 +39,11 @@ impl Failure {
         self
     }
 
+    /// What may help.
+    pub(crate) fn hint(&self) -> Option<&str> {
+        self.hint.as_deref()
+    }
+
     /// Prints it, unless standard output was merely closed.
     pub(crate) fn report(&self) -> Exit {
         if self.exit != Exit::Success {

@@ -8,8 +8,8 @@ use typelift::learn::{self, Options, evidence_of, learn_evidence};
 use typelift::model::{Evidence, LearnedModel, SourceId, Symbol, Unexplained, did_you_mean, name_with_arity};
 use typelift::words::{TypeNote, count, missing_actor, unbounded_parameters};
 use typelift::world::{
-    Dataset, FileError, LeftOut, ObjectTypes, Parser, Repeated, TrajectoryContext, Unlisted, demonstrations_at,
-    read_any_trace, write_file,
+    Dataset, FileError, LeftOut, MixedRelation, ObjectTypes, Parser, Repeated, TrajectoryContext, Unlisted,
+    demonstrations_at, read_any_trace, write_file,
 };
 use typelift_memory::{Access, Memory, MemoryError, MemoryErrorKind};
 
@@ -17,7 +17,7 @@ use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::warn;
 use crate::learn_actor;
-use crate::learn_changes::{Changes, flickering};
+use crate::learn_changes::{Changes, colliding, flickering};
 use crate::learn_into::{self, add, beginning, forget};
 use crate::learn_report::{Report, print_counts};
 use crate::limits::{Clock, Limits};
@@ -130,7 +130,7 @@ impl Learn {
         let learned = within_shown(clock, self.limits, &waiting, learn)?;
         let Learned { model, report, notes, .. } = &learned;
         // First, so that the model is written even if standard output is closed.
-        let text = model.to_json()?;
+        let text = model.to_json().map_err(|error| colliding(error, &learned.dataset))?;
         let added = memory.map(|memory| self.remember(memory, &learned)).transpose()?;
         let stays = self.output.is_none() && output.is_some_and(|path| is_written(path, &text));
         if let Some(path) = output.filter(|_| !stays) {
@@ -291,6 +291,7 @@ impl Learn {
         }
         warn(dataset.traces.iter().flat_map(|trace| &trace.warnings));
         warn_of_left_out(&dataset.left_out);
+        warn_of_mixed(&dataset.mixed);
         let actor = learn_actor::declared(self.actor.as_deref());
         learn_actor::warn_of_acted_on(actor.as_ref(), &model.model, &model.evidence.total());
         let unexplained = &model.evidence.total().unexplained;
@@ -332,16 +333,18 @@ impl Learn {
             );
         }
         let (single, actions) = (report.single_support, report.generalized);
-        let Some((predicate, fewer, all)) = flickering(&model.evidence.total()) else { return };
-        if self.individual || single * 2 <= actions || every_time.contains(&&predicate) {
+        let source = |predicate| dataset.attributes.get(predicate).unwrap_or(predicate);
+        let total = model.evidence.total();
+        let Some((name, fewer, all)) = flickering(&total, source) else { return };
+        let is_told = every_time.into_iter().any(|predicate| *source(predicate) == name);
+        if self.individual || single * 2 <= actions || is_told {
             return;
         }
-        let source = dataset.attributes.get(&predicate).unwrap_or(&predicate);
         anstream::eprintln!(
             "{WARNING}warning{WARNING:#}: {single} of {actions} actions rest on a single observation, so little was generalized"
         );
         anstream::eprintln!(
-            "{HINT}hint{HINT:#}: what changes by itself keeps alike actions apart; without {predicate} there would be {fewer} kinds of effect instead of {all}: if it flickers, give it hysteresis; if it does not matter, --ignore {source}"
+            "{HINT}hint{HINT:#}: what changes by itself keeps alike actions apart; without `{name}` there would be {fewer} kinds of effect instead of {all}: if it flickers, give it hysteresis; if it does not matter, --ignore {name}"
         );
     }
 }
@@ -367,6 +370,15 @@ fn read_traces(
 /// Warns of attributes and relations that entities have at times only: the first of them, and how many there are.
 fn warn_of_left_out(left_out: &[LeftOut]) {
     if let Some((first, others)) = left_out.split_first() {
+        let more = if others.is_empty() { String::new() } else { format!("; {} more like it", others.len()) };
+        anstream::eprintln!("{WARNING}warning{WARNING:#}: {first}{more}");
+        anstream::eprintln!("{HINT}hint{HINT:#}: {}", first.hint());
+    }
+}
+
+/// Warns of relations that are lists at times only.
+fn warn_of_mixed(mixed: &[MixedRelation]) {
+    if let Some((first, others)) = mixed.split_first() {
         let more = if others.is_empty() { String::new() } else { format!("; {} more like it", others.len()) };
         anstream::eprintln!("{WARNING}warning{WARNING:#}: {first}{more}");
         anstream::eprintln!("{HINT}hint{HINT:#}: {}", first.hint());

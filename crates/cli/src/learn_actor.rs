@@ -61,7 +61,7 @@ fn who_acts(observed: &Observations) -> String {
 /// Says how an actor that the demonstrations do not show is said.
 pub(crate) fn hint(why: Option<&NoActor>) {
     let actor = match why {
-        Some(NoActor::ButFor { actor, .. }) => actor.as_str(),
+        Some(NoActor::ButFor { actor, .. } | NoActor::NotAlways { actor, .. }) => actor.as_str(),
         _ => "TYPE",
     };
     anstream::eprintln!("{HINT}hint{HINT:#}: --actor {actor} says who acts");

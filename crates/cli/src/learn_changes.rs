@@ -2,8 +2,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use typelift::model::{ClusterKey, GroundAtom, LiftedAtom, Observations, Symbol, predicate_told_apart};
+use typelift::model::{
+    ClusterKey, GroundAtom, LiftedAtom, ModelFileError, Observations, State, Symbol, predicate_told_apart,
+};
 use typelift::world::{Dataset, Transition};
+
+use crate::failure::Failure;
 
 /// In fewer transitions, what all of them change may still be by chance.
 const TRANSITIONS: usize = 3;
@@ -75,23 +79,50 @@ impl Changes {
     }
 }
 
-/// The predicate without which there would be the fewest kinds of effect, and how many those would be, and are; none if
-/// there would not be fewer. A kind is what could be generalized into one action, whatever the types.
-pub(crate) fn flickering(observations: &Observations) -> Option<(Symbol, usize, usize)> {
-    let clusters: Vec<&ClusterKey> = observations.clusters.keys().collect();
+/// Why a model cannot be written; where two predicates are one name in PDDL, with where each of them was seen first.
+pub(crate) fn colliding(error: ModelFileError, dataset: &Dataset) -> Failure {
+    let ModelFileError::Collision(collision) = &error else { return error.into() };
+    let first_seen = |predicate: &Symbol| {
+        dataset.traces.iter().find_map(|trace| {
+            let holds = |state: &State| state.atoms.iter().any(|atom| atom.predicate == *predicate);
+            let file = trace.file.as_ref()?;
+            Some(match trace.states.iter().position(holds)? {
+                0 => format!("`{predicate}` is in {file} before step 1"),
+                step => format!("`{predicate}` is in {file} after step {step}"),
+            })
+        })
+    };
+    let places: Vec<String> = [&collision.first, &collision.second].into_iter().filter_map(first_seen).collect();
+    let failure = Failure::from(error);
+    match failure.hint().filter(|_| !places.is_empty()) {
+        Some(hint) => {
+            let hint = format!("{}. {hint}", places.join(", and "));
+            failure.with_hint(hint)
+        }
+        None => failure,
+    }
+}
+
+/// The attribute or relation, as `source` has them of predicates, without which there would be the fewest kinds of effect,
+/// and how many those would be, and are; none if there would not be fewer. A kind is what could be generalized into one action, whatever the types.
+pub(crate) fn flickering<'a>(
+    observations: &'a Observations,
+    source: impl Fn(&'a Symbol) -> &'a Symbol,
+) -> Option<(Symbol, usize, usize)> {
+    let clusters: Vec<&'a ClusterKey> = observations.clusters.keys().collect();
     let kinds = |left_out: Option<&Symbol>| {
-        let kind = |key: &&ClusterKey| {
-            let names = |atoms: &[LiftedAtom]| {
-                let names = atoms.iter().map(|atom| atom.predicate.clone()).filter(|name| Some(name) != left_out);
-                names.collect::<Vec<_>>()
+        let kind = |key: &&'a ClusterKey| {
+            let names = |atoms: &'a [LiftedAtom]| {
+                let names = atoms.iter().map(|atom| &atom.predicate).filter(|name| Some(source(name)) != left_out);
+                names.cloned().collect::<Vec<_>>()
             };
             (key.action.clone(), names(&key.adds), names(&key.deletes))
         };
         clusters.iter().map(kind).collect::<BTreeSet<_>>().len()
     };
     let atoms = clusters.iter().flat_map(|key| key.adds.iter().chain(&key.deletes));
-    let predicates: BTreeSet<&Symbol> = atoms.map(|atom| &atom.predicate).collect();
-    let (fewest, predicate) = predicates.into_iter().map(|predicate| (kinds(Some(predicate)), predicate)).min()?;
+    let sources: BTreeSet<&Symbol> = atoms.map(|atom| source(&atom.predicate)).collect();
+    let (fewest, left_out) = sources.into_iter().map(|source| (kinds(Some(source)), source)).min()?;
     let all = kinds(None);
-    (fewest < all).then(|| (predicate.clone(), fewest, all))
+    (fewest < all).then(|| (left_out.clone(), fewest, all))
 }

@@ -1,11 +1,11 @@
 //! What `learn` says of what was learned.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
 
 use serde::Serialize;
 use typelift::learn;
-use typelift::model::{LearnedModel, RefusedMerges, Symbol};
+use typelift::model::{LearnedModel, Observations, RefusedMerges, Symbol, WITNESS_BOUND, Witness};
 use typelift::words::{TypeNote, count, places, why_unexplained};
 
 use crate::failure::Failure;
@@ -13,6 +13,9 @@ use crate::style::wrapped;
 
 /// Notes about types that are printed; of a flat hierarchy there may be one for every parameter.
 const MOST_NOTES: usize = 5;
+
+/// Calls whose failures are placed.
+const MOST_CALLS: usize = 6;
 
 /// What is printed with `--json`.
 #[derive(Serialize)]
@@ -22,13 +25,50 @@ pub(crate) struct Report<'l> {
     individual_actions: usize,
     generalized_actions: usize,
     failures: u64,
+    failed: BTreeMap<Symbol, Failed>,
     refused_merges: usize,
     failures_against_merges: u64,
+    not_merged: BTreeMap<Symbol, Vec<Witness>>,
     unexplained: u64,
     single_support: usize,
     predicates: BTreeMap<Symbol, usize>,
     actions: Vec<Symbol>,
     notes: &'l [TypeNote],
+}
+
+/// How often a call was not executed or changed nothing, and some places where.
+#[derive(Default, Serialize)]
+struct Failed {
+    times: u64,
+    places: BTreeSet<Witness>,
+}
+
+/// What failed, by call.
+fn failed(observations: &Observations) -> BTreeMap<Symbol, Failed> {
+    let mut failed: BTreeMap<Symbol, Failed> = BTreeMap::new();
+    for (key, seen) in &observations.negatives {
+        let of_call = failed.entry(key.action.clone()).or_default();
+        of_call.times += seen.count;
+        of_call.places.extend(seen.witnesses.iter().cloned());
+    }
+    for of_call in failed.values_mut() {
+        of_call.places = std::mem::take(&mut of_call.places).into_iter().take(WITNESS_BOUND).collect();
+    }
+    failed
+}
+
+fn listed(places: &BTreeMap<Symbol, BTreeSet<Witness>>) -> BTreeMap<Symbol, Vec<Witness>> {
+    places.iter().map(|(call, places)| (call.clone(), places.iter().cloned().collect())).collect()
+}
+
+/// `open a.jsonl step 3; press b.jsonl step 1 and 4 more`; of many calls the first.
+fn by_call<'f>(failed: impl ExactSizeIterator<Item = (&'f Symbol, String)>) -> String {
+    let more = failed.len().saturating_sub(MOST_CALLS);
+    let mut calls: Vec<String> = failed.take(MOST_CALLS).map(|(call, places)| format!("{call} {places}")).collect();
+    if more > 0 {
+        calls.push(format!("and {} more", count(more as u64, "action")));
+    }
+    calls.join("; ")
 }
 
 impl<'l> Report<'l> {
@@ -39,8 +79,10 @@ impl<'l> Report<'l> {
             individual_actions: report.individual,
             generalized_actions: report.generalized,
             failures: report.failures,
+            failed: failed(&model.evidence.total()),
             refused_merges: report.refused.pairs,
             failures_against_merges: report.refused.failures,
+            not_merged: listed(&report.against_merges),
             unexplained: report.unexplained,
             single_support: report.single_support,
             predicates: model.model.predicates.iter().map(|(name, types)| (name.clone(), types.len())).collect(),
@@ -75,10 +117,13 @@ pub(crate) fn print_counts(
         writeln!(out, "{generalized}:\n  {}", wrapped(names, 2, 80))?;
     }
     if let Some(line) = refused_merges(report.refused) {
-        writeln!(out, "{line}")?;
+        let against = report.against_merges.iter();
+        writeln!(out, "{line}: {}", by_call(against.map(|(call, seen)| (call, places(seen, seen.len() as u64)))))?;
     }
     if report.failures > 0 {
-        writeln!(out, "{} not executed, or changed nothing", count(report.failures, "transition"))?;
+        let failed = failed(&model.evidence.total());
+        let by_call = by_call(failed.iter().map(|(call, Failed { times, places: seen })| (call, places(seen, *times))));
+        writeln!(out, "{} not executed, or changed nothing: {by_call}", count(report.failures, "transition"))?;
     }
     for (reason, (times, witnesses)) in &model.evidence.total().unexplained {
         let places = places(witnesses, *times);

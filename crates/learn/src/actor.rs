@@ -67,7 +67,34 @@ pub(crate) fn demonstrated_actor(
             break;
         }
     }
-    Ok(Err(but_for.unwrap_or(why)))
+    Ok(Err(but_for.or_else(|| nearly_always(&keys, hierarchy)).unwrap_or(why)))
+}
+
+/// The one type that is argument 0 of calls of every name and takes no other part, and a call that begins with something else.
+fn nearly_always(keys: &[&ClusterKey], hierarchy: &Hierarchy) -> Option<NoActor> {
+    let first = |key: &ClusterKey| key.types.get(*key.call.first()? as usize).cloned();
+    let calls: BTreeSet<&Symbol> = keys.iter().map(|key| &key.action).collect();
+    let of_every_call = |ty: &Symbol| {
+        let begins: BTreeSet<&Symbol> =
+            keys.iter().filter(|key| first(key).as_ref() == Some(ty)).map(|key| &key.action).collect();
+        begins == calls
+    };
+    let takes_no_other_part = |ty: &Symbol| {
+        let may_be = |name: &Symbol| match (hierarchy.id(name.as_str()), hierarchy.id(ty.as_str())) {
+            (Some(name), Some(ty)) => !hierarchy.disjoint(name, ty),
+            _ => false,
+        };
+        let others = |key: &&ClusterKey| {
+            let places = (0..).zip(&key.types).filter(|(place, _)| key.call.first() != Some(place));
+            places.map(|(_, name)| name.clone()).collect::<Vec<_>>()
+        };
+        !keys.iter().flat_map(others).any(|name| may_be(&name))
+    };
+    let acting: BTreeSet<Symbol> = keys.iter().filter_map(|key| first(key)).collect();
+    let mut alone = acting.iter().filter(|ty| of_every_call(ty) && takes_no_other_part(ty));
+    let (actor, None) = (alone.next()?, alone.next()) else { return None };
+    let (call, other) = keys.iter().find_map(|key| Some((&key.action, first(key).filter(|ty| ty != actor)?)))?;
+    Some(NoActor::NotAlways { actor: actor.clone(), call: call.clone(), other })
 }
 
 /// Who acts, as far as these calls show it.

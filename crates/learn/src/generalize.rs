@@ -17,7 +17,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use typelift_model::{Hierarchy, LiftedAtom, Observations, RefusedMerges, Support, Symbol, TypeId, effect_bijections};
 
 use crate::draft::Draft;
-use crate::score::{Failures, score_action};
+use crate::score::{Against, Failures, score_action};
 
 /// Bijections between two effects that are compared at most; beyond it, the first ones in order.
 const BIJECTION_BOUND: usize = 5_040;
@@ -39,6 +39,8 @@ pub(crate) struct Counts {
     pub(crate) scored: usize,
     /// Pairs that could be merged in the end and are not, since failures speak against it.
     pub(crate) refused: RefusedMerges,
+    /// What speaks against it.
+    pub(crate) against: Against,
 }
 
 /// Generalizes pairs until nothing changes.
@@ -64,6 +66,7 @@ pub(crate) fn to_fixed_point(
         });
     }
     counts.refused = RefusedMerges { pairs: refused.len(), failures: failures.allowed_by(&refused, hierarchy) };
+    counts.against = failures.against(&refused, hierarchy);
     (groups.into_values().flatten().collect(), counts)
 }
 

@@ -34,9 +34,11 @@ mod outcome;
 mod predicates;
 mod score;
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use thiserror::Error;
 use typelift_model::{
-    ActionModel, Evidence, Hierarchy, LearnedModel, NoActor, Observations, ParseConfig, RefusedMerges, Symbol,
+    ActionModel, Evidence, Hierarchy, LearnedModel, NoActor, Observations, ParseConfig, RefusedMerges, Symbol, Witness,
 };
 use typelift_world::{Dataset, Trace};
 
@@ -60,6 +62,8 @@ pub struct Report {
     pub scored_pairs: usize,
     /// Pairs of actions of the model that were not merged, since failures speak against it.
     pub refused: RefusedMerges,
+    /// Of each call of which there are such pairs, some places where failures were seen that speak against it.
+    pub against_merges: BTreeMap<Symbol, BTreeSet<Witness>>,
     /// Transitions that were not executed, or changed nothing.
     pub failures: u64,
     /// Transitions of which nothing explains what changed.
@@ -156,6 +160,7 @@ pub fn learn(hierarchy: &Hierarchy, observations: &Observations, options: &Optio
         generalized: actions.len(),
         scored_pairs: counts.scored,
         refused: counts.refused,
+        against_merges: counts.against,
         failures: observations.failures(),
         unexplained: observations.unexplained.values().map(|(count, _)| count).sum(),
         single_support: actions.iter().filter(|action| action.observations() == 1).count(),

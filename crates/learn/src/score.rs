@@ -17,7 +17,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use typelift_model::{Cluster, Hierarchy, LiftedAtom, Observations, PreStates, Support, Symbol, TypeId};
+use typelift_model::{Cluster, Hierarchy, LiftedAtom, Observations, PreStates, Support, Symbol, TypeId, Witness};
 
 use crate::draft::Draft;
 
@@ -44,6 +44,9 @@ impl Score {
     }
 }
 
+/// Of each call of which actions were not merged, where failures were seen that speak against it.
+pub(crate) type Against = BTreeMap<Symbol, BTreeSet<Witness>>;
+
 /// The failures of an evidence, by call.
 pub(crate) struct Failures<'e> {
     by_call: BTreeMap<(&'e Symbol, &'e [u32]), Vec<Failure<'e>>>,
@@ -69,15 +72,33 @@ impl<'e> Failures<'e> {
 
     /// How many of them these actions wrongly allow; one that several allow counts once.
     pub(crate) fn allowed_by(&self, actions: &[Draft], hierarchy: &Hierarchy) -> u64 {
+        self.of_calls(actions).map(|(_, failure, actions)| failure.times_allowed(&actions, hierarchy)).sum()
+    }
+
+    /// Of each call of these actions, some of the places where failures were seen that they wrongly allow.
+    pub(crate) fn against(&self, actions: &[Draft], hierarchy: &Hierarchy) -> Against {
+        let mut against = Against::new();
+        for (call, failure, actions) in self.of_calls(actions) {
+            if failure.times_allowed(&actions, hierarchy) > 0 {
+                against.entry(call.clone()).or_default().extend(failure.seen.witnesses.iter().cloned());
+            }
+        }
+        against
+    }
+
+    /// The failures of the calls of these actions, each with the actions of its call.
+    fn of_calls<'a>(
+        &'a self,
+        actions: &'a [Draft],
+    ) -> impl Iterator<Item = (&'a Symbol, &'a Failure<'e>, Vec<&'a Draft>)> {
         let mut by_call: BTreeMap<_, Vec<&Draft>> = BTreeMap::new();
         for action in actions {
             by_call.entry((&action.action, action.call.as_slice())).or_default().push(action);
         }
-        let of_call = |(call, actions): (_, &Vec<&Draft>)| -> u64 {
-            let failures = self.by_call.get(call).into_iter().flatten();
-            failures.map(|failure| failure.times_allowed(actions, hierarchy)).sum()
-        };
-        by_call.iter().map(of_call).sum()
+        by_call.into_iter().flat_map(move |(call, actions)| {
+            let failures = self.by_call.get(&call).into_iter().flatten();
+            failures.map(move |failure| (call.0, failure, actions.clone()))
+        })
     }
 }
 

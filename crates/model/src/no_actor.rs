@@ -44,6 +44,15 @@ pub enum NoActor {
         /// Whether all of that other type is of the type in which they meet; otherwise some of it may be.
         is_covered: bool,
     },
+    /// Things of this type are argument 0 of calls of every name, and take no other part; but in some calls something else is.
+    NotAlways {
+        /// That type.
+        actor: Symbol,
+        /// The name of such a call.
+        call: Symbol,
+        /// The type that is argument 0 of it.
+        other: Symbol,
+    },
     /// All calls but those of one name show who acts.
     ButFor {
         /// That name.
@@ -59,6 +68,9 @@ impl NoActor {
     /// Whether an actor may have been expected: it is missing for the hierarchy of types alone, or for calls of a single
     /// name.
     pub fn is_unexpected(&self) -> bool {
-        matches!(self, Self::NothingInCommon { .. } | Self::NotAlone { .. } | Self::ButFor { .. })
+        matches!(
+            self,
+            Self::NothingInCommon { .. } | Self::NotAlone { .. } | Self::NotAlways { .. } | Self::ButFor { .. }
+        )
     }
 }

@@ -1,5 +1,7 @@
 //! How an episode went.
 
+use std::collections::BTreeSet;
+
 use serde::{Deserialize, Serialize};
 use typelift_agent::{
     Account, Avoided, Ending, Episode, Failure, GivenUp, LastResorts, SeenDone, StepResult, StoppedAt, Suspect,
@@ -190,8 +192,8 @@ fn why_not(account: &Account, told: &[Failure]) -> Option<String> {
         Ending::Solved => return None,
         Ending::NoPlan(explanation) if account.avoided.is_empty() => format!("nothing left to try: {explanation}"),
         Ending::NoPlan(explanation) => {
-            let avoided: Vec<String> = account.avoided.iter().map(|avoiding| avoided(avoiding, told)).collect();
-            format!("nothing left to try without what is excluded:\n  {}\n{explanation}", avoided.join("\n  "))
+            let avoided = all_avoided(&account.avoided, told).join("\n  ");
+            format!("nothing left to try without what is excluded:\n  {avoided}\n{explanation}")
         }
         Ending::Circular => "the plan that is left went as expected before, from this very state, and did not lead to \
                              the goal: something happens besides what the model says"
@@ -209,6 +211,13 @@ fn why_not(account: &Account, told: &[Failure]) -> Option<String> {
             }
         },
     })
+}
+
+/// All that is excluded; what reads the same stands there once.
+fn all_avoided(all: &[Avoided], told: &[Failure]) -> Vec<String> {
+    let mut said = BTreeSet::new();
+    let lines = all.iter().map(|avoiding| avoided(avoiding, told));
+    lines.filter(|line| said.insert(line.clone())).collect()
 }
 
 /// What is excluded after a failure, or by a person's word, and after which, unless that is told already.
@@ -279,5 +288,20 @@ fn headline(task: &str, account: &Account, planning_ms: u128) -> Text {
             line.with(Role::Good, "solved").plain(format!(": {}, {counted}", plan_size(plan)))
         }
         _ => line.with(Role::Bad, "not solved").plain(format!(": {counted}")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_excluded_twice_is_said_once() {
+        let avoiding = |reason: &str| Avoided { reason: reason.to_owned(), by_person: false, suspects: Vec::new() };
+        let all = ["weld(a): \"no gas\"", "weld(b): \"no gas\"", "weld(a): \"no gas\""].map(avoiding);
+        assert_eq!(
+            all_avoided(&all, &[]),
+            ["the same action again, after weld(a): \"no gas\"", "the same action again, after weld(b): \"no gas\""]
+        );
     }
 }

@@ -94,6 +94,11 @@ pub fn missing_actor(why: &NoActor, before: Option<&Symbol>) -> Option<TypeNote>
                 format!("{}{meets}; but {}, which {is} of type {meet}, too", acts(acting), takes(other)),
             )
         }
+        NoActor::NotAlways { actor, call, other } => (
+            Some(call),
+            vec![actor, other],
+            format!("{actor} acts in calls of every name, but {call} is done by {other} at times"),
+        ),
         NoActor::ButFor { call, actor, is_without } => {
             let which = if *is_without { format!(", which never has a {actor} in it") } else { String::new() };
             (Some(call), vec![actor], format!("but for {call}{which}, {actor} would be who acts"))

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use typelift_model::{Goal, GroundCall, Hierarchy, ParseConfig, SourceId, State, Symbol, Unknown, Witness};
 
-use crate::{Expected, FileError, LeftOut, Parser, Verdict};
+use crate::{Expected, FileError, LeftOut, MixedRelation, Parser, Verdict};
 
 /// The first line of a trace.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -129,6 +129,8 @@ pub struct Dataset {
     pub unmatched_ignores: Vec<Symbol>,
     /// Attributes and relations that snapshots have at times only.
     pub left_out: Vec<LeftOut>,
+    /// Relations that snapshots write as lists at times only.
+    pub mixed: Vec<MixedRelation>,
     /// The demonstrations.
     pub traces: Vec<Trace>,
     /// Files that were the same, byte for byte, as one read before, and are not among the traces.
@@ -174,6 +176,7 @@ impl Dataset {
             attributes: parser.attributes(),
             unmatched_ignores: parser.unmatched_ignores().cloned().collect(),
             left_out: parser.left_out(),
+            mixed: parser.mixed(),
             traces: once,
             repeated,
         }

@@ -5,7 +5,8 @@ use std::fmt;
 
 use typelift_model::Symbol;
 
-use crate::{Entity, Relation, Value};
+use crate::mixed_relation::RelationForms;
+use crate::{Entity, MixedRelation, Relation, Value};
 
 /// An attribute or relation that an entity has and another of its type, or the same at another time, does not.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -57,10 +58,11 @@ pub(crate) struct KeySets {
     /// For each type, the keys that give an atom whatever their value is, and whether each is a relation. Of the others
     /// (true or false, lists, numbers) nothing is lost if they are left out.
     telling: BTreeMap<Symbol, BTreeMap<Symbol, bool>>,
+    forms: RelationForms,
 }
 
 impl KeySets {
-    /// Notes the keys of an entity that are not ignored.
+    /// Notes the keys of an entity that are not ignored, and how its relations are written.
     pub(crate) fn note(&mut self, entity: &Entity, mut is_ignored: impl FnMut(&Symbol) -> bool) {
         let mut keys = BTreeSet::new();
         let words = entity.attributes.iter().map(|(key, value)| (key, matches!(value, Value::Text(_)), false));
@@ -71,10 +73,18 @@ impl KeySets {
             }
             keys.insert(key.clone());
         }
+        for (name, relation) in entity.relations.iter().filter(|(name, _)| !is_ignored(name)) {
+            self.forms.note(&entity.id, name, relation);
+        }
         let with_keys = self.seen.entry(entity.ty.clone()).or_default().entry(keys).or_default();
         if !with_keys.contains(&entity.id) {
             with_keys.insert(entity.id.clone());
         }
+    }
+
+    /// The relations that are lists at times only.
+    pub(crate) fn mixed(&self) -> impl Iterator<Item = MixedRelation> {
+        self.forms.mixed()
     }
 
     /// The keys that were left out, each once for a type.

@@ -13,6 +13,7 @@ mod inspection;
 mod json;
 mod left_out;
 mod line_reader;
+mod mixed_relation;
 mod object_types;
 mod parse;
 mod pddl_file;
@@ -43,6 +44,7 @@ pub use hierarchy_file::{DoubtfulParent, TypesFile, hierarchy_from_text, read_hi
 pub use inspection::{BrokenOff, Change, Finding, InspectOptions, Inspection, Problem, Tried, inspect};
 pub use left_out::LeftOut;
 pub use line_reader::LINE_LIMIT;
+pub use mixed_relation::MixedRelation;
 pub use object_types::ObjectTypes;
 pub use parse::{ParseError, ParseErrorKind, Parser};
 pub use pddl_file::{DomainFile, StatedProblem, is_pddl, model_problem_from_text};

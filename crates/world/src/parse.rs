@@ -23,7 +23,7 @@ use typelift_model::{
 };
 
 use crate::left_out::KeySets;
-use crate::{Entity, LeftOut, Relation, Scene, Snapshot, Value};
+use crate::{Entity, LeftOut, MixedRelation, Relation, Scene, Snapshot, Value};
 
 /// What is wrong with a scene.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -190,6 +190,11 @@ impl Parser {
     /// Attributes and relations that were there at times only, in the snapshots so far.
     pub fn left_out(&self) -> Vec<LeftOut> {
         self.keys.left_out()
+    }
+
+    /// Relations that were lists at times only, in the snapshots so far.
+    pub fn mixed(&self) -> Vec<MixedRelation> {
+        self.keys.mixed().collect()
     }
 
     /// The state that a scene shows.

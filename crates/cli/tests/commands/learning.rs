@@ -58,6 +58,56 @@ fn failures_speak_against_merging() {
     insta::assert_snapshot!("show-failures", folder.run("show m.json"));
 }
 
+/// A crane that says in words what it has done, and how often; its hook is a list now and then.
+#[test]
+fn a_word_that_counts_and_a_relation_of_two_forms_are_warned_of() {
+    let folder = Folder::new();
+    folder.write("types.json", r#"{"crane": "thing", "crate": "thing", "pier": "thing", "ship": "thing"}"#);
+    let state = |said: usize, on: &str, hook: &str| {
+        let crane = format!(
+            r#"{{"id":"k","type":"crane","attributes":{{"report":"done_{said}"}},"relations":{{"hook":{hook}}}}}"#
+        );
+        let others = r#"{"id":"p","type":"pier"},{"id":"s","type":"ship"}"#;
+        format!(
+            r#"{{"state":{{"entities":[{crane},{{"id":"c","type":"crate","relations":{{"on":{on}}}}},{others}]}}}}"#
+        )
+    };
+    let mut lines = vec![r#"{"format":"trace/1"}"#.to_owned(), state(0, "\"p\"", "null")];
+    for round in 0..3 {
+        for (step, (name, at)) in [("grab", "p"), ("drop", "s"), ("grab", "s"), ("drop", "p")].into_iter().enumerate() {
+            lines.push(format!(r#"{{"action":{{"name":"{name}","args":["k","c","{at}"]}}}}"#));
+            let (on, hook) = match name {
+                "grab" => ("null".to_owned(), if round == 0 { "[\"c\"]" } else { "\"c\"" }),
+                _ => (format!("\"{at}\""), "null"),
+            };
+            lines.push(state(4 * round + step + 1, &on, hook));
+        }
+    }
+    folder.write("crane.jsonl", lines.join("\n"));
+    let learned = folder.run("learn crane.jsonl --types types.json -o m.json");
+    learned.succeeds();
+    let said = [
+        "warning: the relation `hook` is now a list, as of k, and now an id or null, as of k\n",
+        "without `report` there would be 2 kinds of effect instead of 12",
+        "if it does not matter, --ignore report\n",
+    ];
+    assert!(said.iter().all(|said| learned.err.contains(said)), "{learned}");
+    assert!(!folder.run("learn crane.jsonl --types types.json -o m.json --ignore report").err.contains("without `"));
+}
+
+#[test]
+fn names_that_pddl_does_not_tell_apart_are_placed() {
+    let folder = Folder::new();
+    folder.write("types.json", r#"{"lamp": "thing"}"#);
+    let state = |atom: &str| format!(r#"{{"state":{{"objects":{{"l":"lamp"}},"atoms":["{atom}(l)"]}}}}"#);
+    let press = r#"{"action":{"name":"press","args":["l"]}}"#;
+    let lines = [r#"{"format":"trace/1"}"#, &state("lit"), press, &state("dark"), press, &state("Lit")];
+    folder.write("lamp.jsonl", lines.join("\n"));
+    let refused = folder.refuses(31, "learn lamp.jsonl --types types.json -o m.json");
+    let hint = "hint: `Lit` is in lamp.jsonl after step 2, and `lit` is in lamp.jsonl before step 1. PDDL knows";
+    assert!(refused.err.contains(hint), "{refused}");
+}
+
 /// Picking up a block and putting it down, with something more said of the states after.
 fn trajectory(picked: &str, dropped: &str) -> String {
     format!(

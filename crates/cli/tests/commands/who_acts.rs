@@ -46,6 +46,25 @@ fn the_call_that_hides_who_acts_is_named() {
     insta::assert_snapshot!(transcript.0);
 }
 
+/// One of two drives begins with the dock.
+#[test]
+fn what_acts_nearly_always_is_named() {
+    let folder = yard();
+    folder.write(
+        "drive.jsonl",
+        trace(&[
+            ("lift(fork_1,box_1)", "hangs(box_1)"),
+            ("turn(fork_1,box_1)", "turned(box_1)"),
+            ("turn(dock_1,box_1)", "hangs(box_1)"),
+            ("turn(box_1,dock_1)", "on(box_1,dock_1)"),
+        ]),
+    );
+    let learned = folder.run("learn drive.jsonl --types types.json -o m.json");
+    learned.succeeds();
+    let note = "there is no default actor: fork acts in calls of every name, but turn is done by box at times\n";
+    assert!(learned.out.ends_with(note) && learned.err.ends_with("hint: --actor fork says who acts\n"), "{learned}");
+}
+
 #[test]
 fn a_type_that_does_not_act_is_doubted_and_one_that_takes_no_part_is_refused() {
     let folder = yard();

@@ -180,7 +180,7 @@ impl Inspector {
 
     fn find(&mut self, place: &str, problem: Problem) {
         let finding = Finding { place: place.to_owned(), problem };
-        if !self.findings.iter().any(|known| known.problem == finding.problem) {
+        if !self.findings.iter().any(|known| known.problem.has_cause_of(&finding.problem)) {
             self.findings.push(finding);
         }
     }

@@ -6,7 +6,7 @@ use std::fmt;
 use thiserror::Error;
 use typelift_model::{GroundAtom, Symbol};
 
-use crate::{DoubtfulParent, LeftOut, ParseError};
+use crate::{DoubtfulParent, LeftOut, MixedRelation, ParseError};
 
 /// Atoms that are listed; of more it is said how many there are.
 const LISTED: usize = 3;
@@ -185,15 +185,8 @@ pub enum Problem {
         other: Symbol,
     },
     /// A relation that is now a list and now an id or null.
-    #[error("the relation `{relation}` is now a list, as of {list}, and now an id or null, as of {one}")]
-    MixedRelation {
-        /// The relation.
-        relation: Symbol,
-        /// An entity of which it is a list.
-        list: Symbol,
-        /// An entity of which it is none.
-        one: Symbol,
-    },
+    #[error("{0}")]
+    MixedRelation(MixedRelation),
     /// A relation that is a list, and never of more than one.
     #[error("the relation `{relation}` is a list, but never held more than one entity, and none of {empty}")]
     ListOfOne {
@@ -241,6 +234,21 @@ pub enum Problem {
 }
 
 impl Problem {
+    /// Whether the other one, found elsewhere, is nothing new: it is the same, or states that cannot be read, or that do not
+    /// come to rest, for the same cause.
+    pub(super) fn has_cause_of(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::NotAState(one), Self::NotAState(other)) => {
+                one.entity == other.entity && std::mem::discriminant(&one.kind) == std::mem::discriminant(&other.kind)
+            }
+            (Self::NotSettled { change: one }, Self::NotSettled { change: other }) => {
+                let predicates = |change: &Change| change.predicates().cloned().collect::<BTreeSet<_>>();
+                one.objects == other.objects && predicates(one) == predicates(other)
+            }
+            _ => self == other,
+        }
+    }
+
     /// The word for it that a program reads.
     pub fn word(&self) -> &'static str {
         match self {
@@ -261,7 +269,7 @@ impl Problem {
             Self::LeftOut(_) => "left_out",
             Self::DoubtfulParent(_) => "doubtful_parent",
             Self::DiffersInCase { .. } => "differs_in_case",
-            Self::MixedRelation { .. } => "mixed_relation",
+            Self::MixedRelation(_) => "mixed_relation",
             Self::ListOfOne { .. } => "list_of_one",
             Self::MixedAttribute { .. } => "mixed_attribute",
             Self::FewNumbers { .. } => "few_numbers",
@@ -339,9 +347,7 @@ impl Problem {
             Self::DiffersInCase { .. } => {
                 "Spell it alike everywhere: names that differ in case only are refused in a model.".to_owned()
             }
-            Self::MixedRelation { .. } => "Where there may be several it is a list, even of one or none; where there is at \
-                                           most one it is an id or null."
-                .to_owned(),
+            Self::MixedRelation(mixed) => mixed.hint(),
             Self::ListOfOne { relation, .. } => format!(
                 "If there is at most one, write an id or null: only null gives an atom, `{relation}_None`, that an action \
                  can need."

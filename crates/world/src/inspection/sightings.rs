@@ -37,10 +37,8 @@ struct Attribute {
 /// What was seen of a relation.
 #[derive(Debug, Default)]
 struct Related {
-    /// The first entity of which it is a list.
-    list: Option<Symbol>,
-    /// The first of which it is an id or null.
-    one: Option<Symbol>,
+    /// Whether it is an id or null of some entity.
+    is_one: bool,
     /// The first of which it is an empty list.
     empty: Option<Symbol>,
     longest: usize,
@@ -66,7 +64,8 @@ impl Sightings {
         let relations = self.relations.iter().filter_map(|(name, related)| related.problem(name));
         let attributes = self.attributes.iter().filter_map(|(name, attribute)| attribute.problem(name));
         let left_out = self.keys.left_out().into_iter().map(Problem::LeftOut);
-        relations.chain(attributes).chain(left_out).collect()
+        let mixed = self.keys.mixed().map(Problem::MixedRelation);
+        mixed.chain(relations).chain(attributes).chain(left_out).collect()
     }
 }
 
@@ -119,11 +118,8 @@ impl Attribute {
 impl Related {
     fn note(&mut self, entity: &Entity, relation: &Relation) {
         match relation {
-            Relation::One(_) => {
-                self.one.get_or_insert_with(|| entity.id.clone());
-            }
+            Relation::One(_) => self.is_one = true,
             Relation::Many(targets) => {
-                self.list.get_or_insert_with(|| entity.id.clone());
                 self.longest = self.longest.max(targets.len());
                 if targets.is_empty() {
                     self.empty.get_or_insert_with(|| entity.id.clone());
@@ -134,10 +130,7 @@ impl Related {
 
     fn problem(&self, name: &Symbol) -> Option<Problem> {
         let relation = name.clone();
-        if let (Some(list), Some(one)) = (self.list.clone(), self.one.clone()) {
-            return Some(Problem::MixedRelation { relation, list, one });
-        }
-        let empty = self.empty.clone().filter(|_| self.longest == 1)?;
+        let empty = self.empty.clone().filter(|_| self.longest == 1 && !self.is_one)?;
         Some(Problem::ListOfOne { relation, empty })
     }
 }

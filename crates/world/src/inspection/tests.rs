@@ -118,6 +118,16 @@ fn what_values_are_over_all_scenes() {
     assert_eq!(shown(&[&pump(r#""mass":0.5"#, "")]), Vec::<String>::new());
 }
 
+/// Each state says a word of two words, another one each time.
+#[test]
+fn states_that_cannot_be_read_for_one_cause_are_one_finding() {
+    let scenes: Vec<String> = (0..4).map(|n| pump(&format!(r#""said":"it ran {n} times""#), "")).collect();
+    let said = shown(&scenes.iter().map(String::as_str).collect::<Vec<_>>());
+    let unreadable = "this is no state: entity pump_1: `said_it ran 0 times` cannot be a name: it holds white space";
+    let found: Vec<&String> = said.iter().filter(|finding| finding.contains("no state")).collect();
+    assert!(matches!(found.as_slice(), [only] if only.ends_with(unreadable)), "{said:?}");
+}
+
 #[test]
 fn lists_and_ids_are_told_apart() {
     let (list, none, empty) = (r#""feeds":["tank_1"]"#, r#""feeds":null"#, r#""feeds":[]"#);
