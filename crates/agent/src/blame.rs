@@ -43,18 +43,7 @@ impl Blame<'_> {
     /// What is to blame for each failure. Nothing may be: then only the very same action is not tried again.
     pub(crate) fn of_each(&self, failures: &[Failed], worked: &[Success], task: u64) -> Vec<Vec<Suspected>> {
         let nobody = BTreeSet::new();
-        let failed = failures.iter().filter(|failed| !failed.rejected && failed.objection.is_none());
-        let failed = failed.map(|failed| tried(failed, task));
-        let worked = worked.iter().map(|Success { deed, count, when }| Tried {
-            deed,
-            worked: true,
-            count: *count,
-            when: *when,
-            tasks_ago: 0,
-            actors: &nobody,
-            in_goal: &nobody,
-        });
-        let run: Vec<Tried<'_>> = worked.chain(failed).collect();
+        let run = all_tried(failures, worked, task, &nobody);
         let mut beliefs: BTreeMap<&Symbol, ActionBelief> = BTreeMap::new();
         let mut of_one = |failed: &Failed| match (&failed.objection, self.rule) {
             (Some(objection), _) => certain(objected(failed, objection)),
@@ -112,7 +101,7 @@ impl Blame<'_> {
     }
 
     /// The action whose deed it was: of those that do the same the one that most speaks for.
-    fn action_of(&self, deed: &Deed) -> Option<&ActionSchema> {
+    pub(crate) fn action_of(&self, deed: &Deed) -> Option<&ActionSchema> {
         let same = self.model.actions.iter().filter(|schema| deed.is_of(schema));
         same.max_by_key(|schema| (schema.provenance.observations(), std::cmp::Reverse(&schema.name)))
     }
@@ -164,7 +153,27 @@ fn extent(cause: &Cause) -> usize {
     }
 }
 
-fn tried(failed: &Failed, task: u64) -> Tried<'_> {
+/// All that was tried: what worked, and what failed, but for what a person rejected. `nobody` acts in what worked.
+pub(crate) fn all_tried<'d>(
+    failures: &'d [Failed],
+    worked: &'d [Success],
+    task: u64,
+    nobody: &'d BTreeSet<Symbol>,
+) -> Vec<Tried<'d>> {
+    let failed = failures.iter().filter(|failed| !failed.rejected && failed.objection.is_none());
+    let worked = worked.iter().map(|Success { deed, count, when }| Tried {
+        deed,
+        worked: true,
+        count: *count,
+        when: *when,
+        tasks_ago: 0,
+        actors: nobody,
+        in_goal: nobody,
+    });
+    worked.chain(failed.map(|failed| tried(failed, task))).collect()
+}
+
+pub(crate) fn tried(failed: &Failed, task: u64) -> Tried<'_> {
     let Failed { deed, count, when, actors, in_goal, .. } = failed;
     let tasks_ago = task.saturating_sub(failed.task);
     Tried { deed, worked: false, count: *count, when: *when, tasks_ago, actors, in_goal }

@@ -325,7 +325,7 @@ impl Episode {
         Ok(loosened_and_widened(&model, &task, restrictions, &options, &terms.loosened, &self.budget)?.model)
     }
 
-    fn asked(&self, terms: &Terms, state: &State) -> (Task, Options) {
+    pub(crate) fn asked(&self, terms: &Terms, state: &State) -> (Task, Options) {
         let task = Task { init: state.clone(), goal: self.goal.clone(), values: self.values.clone() };
         (task, Options { strict: self.options.strict && !terms.relaxed, ..self.options.clone() })
     }

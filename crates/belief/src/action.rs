@@ -185,6 +185,11 @@ impl ActionBelief {
         self.literals.keys()
     }
 
+    /// Whether a literal may stand in the way.
+    pub(crate) fn is_absent(&self, atom: &LiftedAtom) -> bool {
+        self.absent.contains_key(atom)
+    }
+
     /// The literals that may stand in the way.
     pub(crate) fn absent(&self) -> impl Iterator<Item = &LiftedAtom> {
         self.absent.keys()
@@ -254,7 +259,7 @@ impl ActionBelief {
     }
 
     /// The literals that held in a success and are known not to have held here.
-    fn missing_in(&self, outcome: &Outcome) -> Vec<LiftedAtom> {
+    pub(crate) fn missing_in(&self, outcome: &Outcome) -> Vec<LiftedAtom> {
         let missing = |atom: &&LiftedAtom| outcome.tells_of(atom) && !outcome.held.contains(*atom);
         self.literals.keys().filter(missing).cloned().collect()
     }

@@ -2,6 +2,8 @@
 
 use typelift_model::{LiftedAtom, Symbol, TypeId};
 
+use crate::judgement::Culprit;
+
 /// Two parameters and the types there.
 pub type Pair = ((usize, TypeId), (usize, TypeId));
 
@@ -25,4 +27,17 @@ pub enum Cause {
     Present(LiftedAtom),
     /// Nothing that is known.
     Chance,
+}
+
+impl Cause {
+    /// Of what kind it is.
+    pub fn culprit(&self) -> Culprit {
+        match self {
+            Self::Object { .. } => Culprit::Object,
+            Self::Type(..) => Culprit::Type,
+            Self::Together(_) => Culprit::Pair,
+            Self::Missing(_) | Self::Present(_) => Culprit::Literal,
+            Self::Chance => Culprit::Chance,
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! What is read off for a call: how likely it works, by which action, and what speaks against it.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use typelift_model::{
     ActionModel, ActionSchema, GroundAtom, GroundCall, Hierarchy, LearnedModel, LiftedAtom, State, Symbol, Term, TypeId,
 };
@@ -21,7 +21,7 @@ pub struct Question<'q> {
 }
 
 /// What may be to blame.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Culprit {
@@ -112,17 +112,17 @@ impl<'m> Belief<'m> {
     fn suspect(&self, cause: &Cause, share: f64, bound: &[Option<usize>], call: &GroundCall) -> Suspect {
         let hierarchy: &Hierarchy = &self.model.hierarchy;
         let in_call = |atom| ground(atom, bound, call).map(|atom| atom.to_string()).unwrap_or_default();
-        let (kind, what) = match cause {
-            Cause::Type(_, ty) => (Culprit::Type, hierarchy.name(*ty).to_string()),
+        let what = match cause {
+            Cause::Type(_, ty) => hierarchy.name(*ty).to_string(),
             Cause::Together(((_, one), (_, other))) => {
-                (Culprit::Pair, format!("{} with {}", hierarchy.name(*one), hierarchy.name(*other)))
+                format!("{} with {}", hierarchy.name(*one), hierarchy.name(*other))
             }
-            Cause::Missing(atom) => (Culprit::Literal, in_call(atom)),
-            Cause::Present(atom) => (Culprit::Literal, format!("not {}", in_call(atom))),
-            Cause::Object { object, .. } => (Culprit::Object, object.to_string()),
-            Cause::Chance => (Culprit::Chance, String::new()),
+            Cause::Missing(atom) => in_call(atom),
+            Cause::Present(atom) => format!("not {}", in_call(atom)),
+            Cause::Object { object, .. } => object.to_string(),
+            Cause::Chance => String::new(),
         };
-        Suspect { kind, what, share }
+        Suspect { kind: cause.culprit(), what, share }
     }
 }
 

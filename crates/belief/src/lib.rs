@@ -20,12 +20,14 @@
 //! | `object` | objects, with the odds that they are out of order |
 //! | `action` | all of it for one action: sharing the blame |
 //! | `judgement` | what is read off for a call |
+//! | `foresight` | what is read off for something that is about to be done, with objects that failed |
 
 #![deny(missing_docs)]
 
 mod action;
 mod cause;
 mod deed;
+mod foresight;
 mod judgement;
 mod object;
 mod outcome;
@@ -38,7 +40,7 @@ pub use deed::{Deed, Participant, Tried};
 pub use judgement::{Belief, Culprit, Judgement, Question, Suspect};
 
 /// How often something happens that nothing explains.
-pub(crate) const CHANCE: f64 = 0.02;
+pub const CHANCE: f64 = 0.02;
 
 /// However often the same is seen to fail, it may be chance: it counts as evidence so often at most.
 pub(crate) const MOST_ALIKE: f64 = 3.0;

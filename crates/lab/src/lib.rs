@@ -41,8 +41,8 @@ pub use growth::{
 pub use hierarchy::{ParameterRow, TypeHierarchy, TypeRow};
 pub use learned::{dataset_of, kitchen_model, learned_from};
 pub use lifelong::{
-    Agent, AgentSummary, FailedStep, Goal, LifeRecord, LifeRun, LifelongOptions, LifelongResult, OtherEffect,
-    TaskRecord, TrueCause, lifelong_experiment,
+    Agent, AgentSummary, Blame, FailedStep, Goal, LifeRecord, LifeRun, LifelongOptions, LifelongResult, OtherEffect,
+    TaskRecord, TrueCause, Truth, lifelong_experiment,
 };
 pub use limits::{Limits, Stopper};
 pub use published::{Demonstrations, Learning, Published, PublishedCell, Table, published};

@@ -167,7 +167,7 @@ impl<E: Experiment> Shared<'_, E> {
 }
 
 /// Nothing is left half done under these locks, so it does not matter whether somebody panicked.
-pub(crate) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 

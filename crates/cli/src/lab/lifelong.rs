@@ -60,6 +60,7 @@ impl LabLifelong {
             runs: self.repeated.runs(quick, default.runs),
             seed: self.repeated.rooms.seed,
             tasks: self.tasks.map_or(tasks, |tasks| usize::try_from(tasks).unwrap_or(usize::MAX)),
+            states: if quick { 0 } else { default.states },
             limits: self.repeated.rooms.limits.or(default.limits),
         };
         let files = "lifelong.csv, failed.csv, lifelong.json and lifelong.md";
@@ -108,6 +109,8 @@ fn print(out: &mut dyn Write, result: &LifelongResult, explain: bool) -> Result<
         }
     }
     write!(out, "{}", columns.text(2))?;
+    print_blame(out, result)?;
+    print_truth(out, result, explain)?;
     if explain {
         explain_failures(out, result)?;
     }
@@ -119,13 +122,61 @@ fn print(out: &mut dyn Write, result: &LifelongResult, explain: bool) -> Result<
     Ok(())
 }
 
+/// What the agent with a memory blamed.
+fn print_blame(out: &mut dyn Write, result: &LifelongResult) -> Result<(), Failure> {
+    let blame = result.blame();
+    if blame.first[1] == 0 {
+        return Ok(());
+    }
+    writeln!(out, "\n{HEAD}The right kind of culprit came first{HEAD:#}")?;
+    let mut columns = Columns::with_right(&[1]);
+    let times = [("when a cause struck for the first time", blame.first), ("for the third time", blame.third)];
+    for (when, [hit, of]) in times {
+        columns.row([when.to_owned(), format!("{hit} of {of}")]);
+    }
+    for (cause, [hit, of]) in &blame.by_cause {
+        columns.row([format!("{cause}, every time"), format!("{hit} of {of}")]);
+    }
+    write!(out, "{}", columns.text(2))?;
+    let [believed, object, kind] = blame.brier;
+    writeln!(out, "  Brier's score {believed:.3}; always the object {object:.3}, always the type {kind:.3}")?;
+    Ok(())
+}
+
+/// How true it was what the agent with a memory thought to work.
+fn print_truth(out: &mut dyn Write, result: &LifelongResult, explain: bool) -> Result<(), Failure> {
+    let truth = result.truth();
+    let Some(last) = truth.last() else { return Ok(()) };
+    writeln!(out, "\n{HEAD}What is thought to work, and does{HEAD:#}")?;
+    let mut columns = Columns::with_right(&[0, 1, 2]);
+    columns.row(["after", "precision", "recall"]);
+    for truth in &truth {
+        columns.row([truth.after.to_string(), format!("{:.4}", truth.precision()), format!("{:.4}", truth.recall())]);
+    }
+    write!(out, "{}", columns.text(2))?;
+    for (what, calls) in [("thought to work", &last.too_much), ("thought not to", &last.too_little)] {
+        let mut calls: Vec<_> = calls.iter().collect();
+        calls.sort_by_key(|(_, count)| std::cmp::Reverse(**count));
+        for (call, count) in calls.into_iter().filter(|_| explain) {
+            writeln!(out, "  {what} in the end, wrongly: {call} ({count})")?;
+        }
+    }
+    Ok(())
+}
+
 /// What the agent with a memory failed, and where.
 fn explain_failures(out: &mut dyn Write, result: &LifelongResult) -> Result<(), Failure> {
     for (run, record) in result.records.iter().filter(|(run, _)| run.agent == Agent::Memory) {
         writeln!(out, "\n{HEAD}{run}{HEAD:#}")?;
         for (number, task) in (1..).zip(&record.tasks) {
             for step in task.failed.iter().filter(|step| !step.retry) {
-                let text = format!("{number} {}: {} as {}: {}", task.task, step.call, step.action, step.cause);
+                let mut text = format!("{number} {}: {} as {}: {}", task.task, step.call, step.action, step.cause);
+                if let Some(p) = step.p {
+                    text += &format!("; p was {p:.2}");
+                }
+                if let Some(better) = step.better {
+                    text += &format!(", of another plan {better:.2}");
+                }
                 writeln!(out, "  {}", wrapped(text.split(' '), 4, 78))?;
             }
             if !task.solved() {

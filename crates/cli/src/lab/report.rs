@@ -83,7 +83,8 @@ fn quick(experiment: &str, runner: &RunnerOptions<'_>) -> Result<(), LabError> {
             faults_experiment(&options, runner).map(drop)
         }
         "lifelong" => {
-            let options = LifelongOptions { runs: 1, tasks: LifelongOptions::QUICK, ..LifelongOptions::default() };
+            let options =
+                LifelongOptions { runs: 1, tasks: LifelongOptions::QUICK, states: 0, ..LifelongOptions::default() };
             lifelong_experiment(&options, runner).map(drop)
         }
         "growth" => growth(true, GrowthLimits::default(), runner).map(drop),

@@ -2,12 +2,15 @@
 //! with a tool, and one rule is hidden. What each of several agents does wrong, and whether it does it again.
 
 mod agent;
+mod blame;
+mod informed;
 mod living;
+mod mistake;
 mod record;
 mod remembering;
 mod render;
 mod summary;
-mod watched;
+mod truth;
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -23,8 +26,10 @@ use crate::limits::{Limits, Stopper};
 use crate::runner::{Experiment, RunnerOptions, carry_out};
 
 pub use agent::Agent;
+pub use blame::Blame;
 pub use record::{FailedStep, LifeRecord, OtherEffect, TaskRecord, TrueCause};
 pub use summary::{AgentSummary, Goal};
+pub use truth::Truth;
 
 use living::Living;
 
@@ -39,6 +44,8 @@ pub struct LifelongOptions {
     pub seed: u64,
     /// Tasks of a life.
     pub tasks: usize,
+    /// States in which it is looked at what is thought to work.
+    pub states: usize,
     /// What a task may take.
     pub limits: Limits,
 }
@@ -51,7 +58,7 @@ impl LifelongOptions {
 impl Default for LifelongOptions {
     fn default() -> Self {
         let limits = Limits { max_expansions: 200_000, max_proposals: 12, seconds: 120.0 };
-        Self { agents: Agent::ALL.to_vec(), runs: 10, seed: 0, tasks: 200, limits }
+        Self { agents: Agent::ALL.to_vec(), runs: 10, seed: 0, tasks: 200, states: 200, limits }
     }
 }
 
@@ -81,7 +88,7 @@ impl Experiment for LifelongExperiment {
     type Record = LifeRecord;
 
     fn settings(&self) -> Value {
-        json!({ "tasks": self.options.tasks, "limits": self.options.limits })
+        json!({ "tasks": self.options.tasks, "states": self.options.states, "limits": self.options.limits })
     }
 
     fn runs(&self) -> Vec<LifeRun> {
@@ -101,7 +108,7 @@ impl Experiment for LifelongExperiment {
     fn run(&self, run: &LifeRun, stopper: &Stopper) -> Result<Option<LifeRecord>, LabError> {
         let life = life(run.seed, self.options.tasks);
         let living = Living::new(run.agent, &self.learned, self.options.limits, stopper);
-        living.live(&life).map_err(|message| LabError::Run { run: run.to_string(), message })
+        living.live(&life, self.options.states).map_err(|message| LabError::Run { run: run.to_string(), message })
     }
 }
 

@@ -3,7 +3,12 @@
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
+use typelift::agent::Explanation;
+use typelift::model::Symbol;
 use typelift_kitchen::{Exception, Fault, Interlock};
+
+use super::mistake::UNLIKELY;
+use super::truth::Truth;
 
 /// What came of a life.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -14,6 +19,9 @@ pub struct LifeRecord {
     pub interlock: Interlock,
     /// Its tasks, in order.
     pub tasks: Vec<TaskRecord>,
+    /// How true it was along the life what was thought to work, if somebody with a memory lived it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub truth: Vec<Truth>,
 }
 
 /// What came of a task.
@@ -27,6 +35,9 @@ pub struct TaskRecord {
     pub proposals: u64,
     /// Actions executed, retries included.
     pub actions: u64,
+    /// The tool that broke just before it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub newly_broken: Option<Symbol>,
     /// The steps that failed, each retry one.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub failed: Vec<FailedStep>,
@@ -51,6 +62,23 @@ pub struct FailedStep {
     /// Whether it was tried again just after it had failed.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub retry: bool,
+    /// How likely it was thought to work, if somebody with a memory took it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub p: Option<f64>,
+    /// How likely another plan was thought to work, if the step was thought unlikely to, and a plan likelier than this one was
+    /// found.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub better: Option<f64>,
+    /// What explained it, just after it counted as a failure, the likeliest first.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub explanations: Vec<Explanation>,
+}
+
+impl FailedStep {
+    /// Whether it is a mistake repeated: it was thought unlikely to work, and there was a better plan; retries apart.
+    pub fn is_repeated_mistake(&self) -> bool {
+        !self.retry && self.p.is_some_and(|p| p < UNLIKELY) && self.better.is_some()
+    }
 }
 
 /// Why a step failed, in truth.

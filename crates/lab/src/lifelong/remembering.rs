@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use typelift::learn::{learn_evidence, observe_trace};
 use typelift::model::{ActionModel, LearnedModel, Symbol};
-use typelift::world::{Beginning, FileError, Parser, RecordSink, Recording, Scene, TraceAction, TraceHeader};
+use typelift::world::{Record, Trace};
 
 /// A model that goes on learning.
 #[derive(Debug, Clone)]
@@ -20,50 +20,29 @@ impl Learner {
         Self { learned, model }
     }
 
-    /// Learns from what was done in a task, each beginning as a source of its own.
+    /// Learns from what was done in a task, one step after the other.
     ///
     /// # Errors
-    /// In words, if what was recorded is no trace of this hierarchy.
-    pub(super) fn learn(&mut self, kept: &Kept) -> Result<(), String> {
-        let LearnedModel { model, parse, options, evidence, .. } = &mut self.learned;
-        let mut parser = Parser::new(model.hierarchy.clone(), parse.clone());
-        for recording in &kept.recordings {
-            let name = Symbol::from(format!("{}.jsonl", recording.header.task));
-            let trace = recording.trace(name.clone(), &mut parser).map_err(|error| error.to_string())?;
-            let observed = observe_trace(&trace, &model.hierarchy);
-            let source = [(trace.source_id(&model.hierarchy), name, observed)].into_iter().collect();
-            evidence.merge(&source).map_err(|error| error.to_string())?;
+    /// In words, if a type is unknown.
+    pub(super) fn learn(&mut self, task: &str, records: Vec<Record>) -> Result<(), String> {
+        let Some(first) = records.first() else { return Ok(()) };
+        let name = Symbol::from(format!("{task}.jsonl"));
+        let mut trace = Trace {
+            file: Some(name.clone()),
+            task: task.to_owned(),
+            states: vec![first.before.clone()],
+            ..Trace::default()
+        };
+        for record in records {
+            trace.actions.push(record.action);
+            trace.states.push(record.after);
         }
-        let learned = learn_evidence(&model.hierarchy, parse, evidence.clone(), options);
+        let LearnedModel { model, parse, options, mut evidence, .. } = std::mem::take(&mut self.learned);
+        let hierarchy = &model.hierarchy;
+        let source = (trace.source_id(hierarchy), name, observe_trace(&trace, hierarchy));
+        evidence.merge(&[source].into_iter().collect()).map_err(|error| error.to_string())?;
+        let learned = learn_evidence(hierarchy, &parse, evidence, &options);
         *self = Self::new(learned.map_err(|error| error.to_string())?.0);
-        Ok(())
-    }
-}
-
-/// Keeps what happens in a task.
-#[derive(Debug)]
-pub(super) struct Kept {
-    header: TraceHeader,
-    recordings: Vec<Recording>,
-}
-
-impl Kept {
-    pub(super) fn new(header: TraceHeader) -> Self {
-        Self { header, recordings: Vec::new() }
-    }
-}
-
-impl RecordSink for Kept {
-    fn begin(&mut self, beginning: &Beginning<'_>) -> Result<(), FileError> {
-        let (header, first) = (self.header.clone(), beginning.first.clone());
-        self.recordings.push(Recording { header, first, steps: Vec::new() });
-        Ok(())
-    }
-
-    fn step(&mut self, action: &TraceAction, after: &Scene) -> Result<(), FileError> {
-        if let Some(recording) = self.recordings.last_mut() {
-            recording.steps.push((action.clone(), after.clone()));
-        }
         Ok(())
     }
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 use typelift::world::{FileError, write_file};
 
-use super::LifelongResult;
+use super::{LifelongResult, Truth};
 use crate::csv::Csv;
 
 impl LifelongResult {
@@ -62,6 +62,8 @@ impl LifelongResult {
             "window": self.window(),
             "limits": self.options.limits,
             "agents": self.summaries(),
+            "blame": self.blame(),
+            "truth": self.truth().iter().map(truth_json).collect::<Vec<_>>(),
             "goals": self.goals(),
         })
     }
@@ -96,10 +98,48 @@ impl LifelongResult {
                 let _ = writeln!(text, "| {} | {kind} | {first} | {last} | {all} |", summary.agent);
             }
         }
+        let blame = self.blame();
+        if blame.first[1] > 0 {
+            text += "\n## Blame\n\n| when a true cause struck | the right kind of culprit came first |\n|---|---|\n";
+            for (when, [hit, of]) in [("for the first time", blame.first), ("for the third time", blame.third)] {
+                let _ = writeln!(text, "| {when} | {hit} of {of} |");
+            }
+            for (cause, [hit, of]) in &blame.by_cause {
+                let _ = writeln!(text, "| {cause}, every time | {hit} of {of} |");
+            }
+            let [believed, object, kind] = blame.brier;
+            let _ = writeln!(
+                text,
+                "\nBrier's score: {believed:.3}; if it is always thought to be the object {object:.3}, and always the \
+                 type {kind:.3}.\n\n| thought to be to blame | is | of |\n|---|---|---|"
+            );
+            for (count, sum, to_blame) in blame.bins.iter().filter(|(count, ..)| *count > 0) {
+                let of = *count as f64;
+                let _ = writeln!(text, "| {:.3} | {:.3} | {count} |", sum / of, *to_blame as f64 / of);
+            }
+        }
+        if !self.truth().is_empty() {
+            text += "\n## What is thought to work\n\n| after | precision | recall |\n|---|---|---|\n";
+        }
+        for truth in self.truth() {
+            let _ = writeln!(text, "| {} | {:.4} | {:.4} |", truth.after, truth.precision(), truth.recall());
+        }
         text += "\n## What was to be reached\n\n| what | at most | is |\n|---|---|---|\n";
         for goal in self.goals() {
             let _ = writeln!(text, "| {} | {:.3} | {:.3} |", goal.what, goal.at_most, goal.reached);
         }
         text
     }
+}
+
+fn truth_json(truth: &Truth) -> Value {
+    let Truth { after, right, too_much, too_little } = truth;
+    json!({
+        "after": after,
+        "precision": truth.precision(),
+        "recall": truth.recall(),
+        "right": right,
+        "too_much": too_much,
+        "too_little": too_little,
+    })
 }

@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use super::blame::{Blame, blame};
+use super::truth::Truth;
 use super::{Agent, LifelongResult, TaskRecord, TrueCause};
 
 /// Tasks at the beginning and at the end of a life that are looked at apart.
@@ -28,6 +30,8 @@ pub struct AgentSummary {
     pub failed_beside_informed: Option<Vec<f64>>,
     /// Steps failed in all lives, by their true cause: in the first part, in the last part, and in all.
     pub causes: BTreeMap<&'static str, [usize; 3]>,
+    /// Mistakes repeated: `life 3, task 17 (T1.3): USE(…)`.
+    pub repeated: Vec<String>,
     /// Tasks that the paper's rule solved and this agent did not: `life 3, task 17 (T1.3)`.
     pub lost: Vec<String>,
 }
@@ -59,6 +63,7 @@ impl LifelongResult {
             failed_beside_informed: informed.map(beside),
             failed_over_time,
             causes: self.causes(agent),
+            repeated: self.repeated(agent),
             lost: self.lost(agent),
         }
     }
@@ -95,6 +100,19 @@ impl LifelongResult {
         causes
     }
 
+    fn repeated(&self, agent: Agent) -> Vec<String> {
+        let mut repeated = Vec::new();
+        for (run, record) in self.records.iter().filter(|(run, _)| run.agent == agent) {
+            for (number, task) in (1..).zip(&record.tasks) {
+                let mistakes = task.failed.iter().filter(|step| step.is_repeated_mistake());
+                repeated.extend(mistakes.map(|step| {
+                    format!("life {}, task {number} ({}): {}: {}", run.seed, task.task, step.call, step.cause)
+                }));
+            }
+        }
+        repeated
+    }
+
     fn lost(&self, agent: Agent) -> Vec<String> {
         let mut lost = Vec::new();
         for (run, record) in self.records.iter().filter(|(run, _)| run.agent == agent) {
@@ -108,6 +126,21 @@ impl LifelongResult {
             );
         }
         lost
+    }
+
+    /// What the agent with a memory blamed, beside what was to blame.
+    pub fn blame(&self) -> Blame {
+        blame(self.records.iter().filter(|(run, _)| run.agent == Agent::Memory).map(|(_, record)| record))
+    }
+
+    /// How true it was what was thought to work, at each time that was looked at, the calls of all lives together.
+    pub fn truth(&self) -> Vec<Truth> {
+        let mut times: BTreeMap<usize, Truth> = BTreeMap::new();
+        for truth in self.records.values().flat_map(|record| &record.truth) {
+            let sum = times.entry(truth.after).or_insert_with(|| Truth { after: truth.after, ..Truth::default() });
+            sum.add(truth);
+        }
+        times.into_values().collect()
     }
 
     /// What was to be reached, with what was: by how much fewer steps the agent with a memory fails than the paper's rule, in
@@ -130,6 +163,7 @@ impl LifelongResult {
         vec![
             goal("first", 3.0, own_first, its_first),
             goal("last", 20.0, own_last, its_last),
+            Goal { what: "mistakes repeated".to_owned(), at_most: 0.0, reached: memory.repeated.len() as f64 },
             Goal {
                 what: "tasks lost that the paper's rule solves".to_owned(),
                 at_most: 0.0,
@@ -181,16 +215,20 @@ mod tests {
             action: "USE-cutboard-food".to_owned(),
             cause: TrueCause::Fault(Fault::Exception(exception)),
             retry: false,
+            p: None,
+            better: None,
+            explanations: Vec::new(),
         };
         let task = |failed: usize| TaskRecord {
             task: "T1.1".to_owned(),
             ending: if failed == 5 { "no plan" } else { "solved" }.to_owned(),
             proposals: 1,
             actions: 5,
+            newly_broken: None,
             failed: vec![step.clone(); failed],
         };
         let interlock = Interlock { tools: Vec::new(), loaded: "toaster_1".into() };
-        LifeRecord { exceptions: Vec::new(), interlock, tasks: failed.map(task).to_vec() }
+        LifeRecord { exceptions: Vec::new(), interlock, tasks: failed.map(task).to_vec(), truth: Vec::new() }
     }
 
     fn result(lives: &[(Agent, [usize; 8])]) -> LifelongResult {
