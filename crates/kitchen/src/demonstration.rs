@@ -86,7 +86,7 @@ struct Demonstrator {
 
 impl Demonstrator {
     fn new(kinds: &[ItemKind], seed: u64, header: TraceHeader) -> Self {
-        let room = Room::with_items(kinds, seed).expect("a demonstration needs a handful of items");
+        let room = Room::with_items(kinds, 1, seed).expect("a demonstration needs a handful of items");
         let first = Scene::Snapshot(room.snapshot());
         Self { room, recording: Recording { header, first, steps: Vec::new() } }
     }

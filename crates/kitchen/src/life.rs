@@ -1,4 +1,4 @@
-//! A life in a kitchen: tasks one after the other, in rooms of the same tools. Tools break and are mended; some foods do not go
+//! A life in a kitchen: tasks one after the other, in rooms of the same tools and with other items. Tools break and are mended; some foods do not go
 //! with some tools, and one rule concerns what takes no part in the call that it forbids. None of it is ever observed.
 
 use serde_json::json;
@@ -12,6 +12,8 @@ use crate::tasks::{KitchenTask, tasks};
 const EXCEPTIONS: usize = 6;
 /// In so many of a hundred tasks a tool breaks, one of those in order.
 const BREAKS: usize = 5;
+/// Numbers of items that each task has for itself: as many as there can be items.
+const NUMBERS: usize = 14;
 /// For so many tasks it stays broken, that one included.
 const MENDED_AFTER: usize = 10;
 
@@ -56,7 +58,8 @@ pub fn life(seed: u64, length: usize) -> Life {
             Some(tool)
         });
         let broken: Vec<Symbol> = broken.iter().map(|(tool, _)| tool.clone()).collect();
-        LifeTask { task: with(task, &broken, &exceptions, &interlock), seed, broken, newly_broken }
+        let task = of_other_items(with(task, &broken, &exceptions, &interlock), number);
+        LifeTask { task, seed, broken, newly_broken }
     });
     let tasks = tasks.collect();
     Life { exceptions, interlock, tasks }
@@ -124,6 +127,19 @@ fn with(mut task: KitchenTask, broken: &[Symbol], exceptions: &[Exception], inte
     task
 }
 
+/// The task with items that were in none before: what is called `bread_1` is another bread in each task.
+fn of_other_items(mut task: KitchenTask, number: usize) -> KitchenTask {
+    let earlier = number * NUMBERS;
+    task.scenario["numbered_from"] = json!(earlier + 1);
+    let renumbered = |name: &Symbol| {
+        let parts =
+            name.as_str().rsplit_once('_').and_then(|(kind, number)| Some((kind, number.parse::<usize>().ok()?)));
+        parts.map_or_else(|| name.clone(), |(kind, number)| Symbol::from(format!("{kind}_{}", number + earlier)))
+    };
+    task.goal = task.goal.iter().map(|atom| atom.map(renumbered)).collect();
+    task
+}
+
 #[cfg(test)]
 mod tests {
     use std::collections::BTreeSet;
@@ -151,6 +167,8 @@ mod tests {
             for LifeTask { task, seed, .. } in &life.tasks {
                 let scenario = Scenario::from_json(Some(&task.scenario)).expect("a scenario");
                 let room = Room::build(&scenario, *seed).expect("a room");
+                let known = |name: &Symbol| room.find(name.as_str()).is_some();
+                assert!(task.goal.iter().all(|atom| atom.args.iter().all(known)), "{:?}", task.goal);
                 for food in ItemKind::ALL.into_iter().filter(|kind| kind.is_food()) {
                     let does = |process: Process, exceptions: &[(ItemKind, StationKind)]| {
                         StationKind::TOOLS.into_iter().any(|tool| {

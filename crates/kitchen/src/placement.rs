@@ -11,7 +11,7 @@ use crate::scenario::ScenarioError;
 
 impl Room {
     /// A room with these items, each alone on its counter. Counters are numbered row by row.
-    pub(crate) fn with_items(kinds: &[ItemKind], seed: u64) -> Result<Self, ScenarioError> {
+    pub(crate) fn with_items(kinds: &[ItemKind], first: usize, seed: u64) -> Result<Self, ScenarioError> {
         let mut random = SplitMix64::new(seed);
         let mut cells: Vec<Cell> = Cell::border().filter(|cell| !cell.is_corner()).collect();
         random.shuffle(&mut cells);
@@ -19,7 +19,7 @@ impl Room {
         if kinds.len() > item_cells.len() {
             return Err(ScenarioError::TooManyItems { count: kinds.len(), most: item_cells.len() });
         }
-        let items = numbered(kinds);
+        let items = numbered(kinds, first);
         let counter_cells = Cell::border().filter(|cell| !tool_cells.contains(cell));
         let mut stations: Vec<Station> = (1..)
             .zip(counter_cells)
@@ -42,10 +42,10 @@ impl Room {
     }
 }
 
-/// Items of these kinds, numbered from 1 within each kind.
-fn numbered(kinds: &[ItemKind]) -> Vec<Item> {
+/// Items of these kinds, numbered from `first` within each kind.
+fn numbered(kinds: &[ItemKind], first: usize) -> Vec<Item> {
     let name = |index: usize, kind: ItemKind| {
-        let number = kinds[..=index].iter().filter(|&&k| k == kind).count();
+        let number = kinds[..index].iter().filter(|&&k| k == kind).count().saturating_add(first);
         Symbol::from(format!("{}_{number}", kind.name()))
     };
     kinds.iter().enumerate().map(|(index, &kind)| Item::new(name(index, kind), kind)).collect()

@@ -15,13 +15,17 @@ use crate::snapshot_error::SnapshotError;
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "an object")]
 pub struct Scenario {
-    /// A snapshot to start from. It says where everything is, so `items` and `filler` have no place beside it.
+    /// A snapshot to start from. It says where everything is, so `items`, `numbered_from` and `filler` have no place
+    /// beside it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub state: Option<Snapshot>,
-    /// The types of the items that have to be there, numbered from 1 per type: the second `bread` is `bread_2`.
+    /// The types of the items that have to be there, numbered per type: the second `bread` is `bread_2`.
     /// Default: a plate.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub items: Option<Vec<Symbol>>,
+    /// The number of the first item of each type, for rooms in which no item is one that was elsewhere. Default: 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub numbered_from: Option<usize>,
     /// What is added until there are 8 items. Default: [`Filler::Demonstrated`].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub filler: Option<Filler>,
@@ -92,7 +96,9 @@ pub enum ScenarioError {
         known: String,
     },
     /// Items or a filler beside a snapshot.
-    #[error("the scenario has a `state`, which says what there is: `items` and `filler` have no place beside it")]
+    #[error(
+        "the scenario has a `state`, which says what there is: `items`, `numbered_from` and `filler` have no place beside it"
+    )]
     StateAndItems,
     /// The snapshot is not one of a kitchen.
     #[error("the scenario's state is not a kitchen: {0}")]
@@ -140,11 +146,11 @@ impl Room {
     /// [`ScenarioError`] if there is no such room.
     pub fn build(scenario: &Scenario, seed: u64) -> Result<Self, ScenarioError> {
         let mut room = match &scenario.state {
-            Some(_) if scenario.items.is_some() || scenario.filler.is_some() => {
+            Some(_) if scenario.items.is_some() || scenario.filler.is_some() || scenario.numbered_from.is_some() => {
                 return Err(ScenarioError::StateAndItems);
             }
             Some(state) => Self::from_snapshot(state)?,
-            None => Self::with_items(&kinds(scenario)?, seed)?,
+            None => Self::with_items(&kinds(scenario)?, scenario.numbered_from.unwrap_or(1), seed)?,
         };
         for name in &scenario.broken {
             let tool = room.tool(name, "breaks")?;
@@ -237,6 +243,8 @@ mod tests {
             ["plate_1", "bread_1", "bread_2", "cucumber_1", "apple_1", "watermelon_1", "bagel_1", "cucumber_2"]
         );
         assert_eq!(items(&json!({"items": ["plate", "onion"], "filler": "none"})), ["plate_1", "onion_1"]);
+        let later = json!({"items": ["plate", "onion", "onion"], "filler": "none", "numbered_from": 31});
+        assert_eq!(items(&later), ["plate_31", "onion_31", "onion_32"]);
         assert_eq!(items(&json!({"items": vec!["apple"; 14]})).len(), 14);
         assert!(items(&json!({"items": [], "filler": "none"})).is_empty());
     }
@@ -247,7 +255,7 @@ mod tests {
         let refused = [
             (
                 json!({"itmes": []}),
-                "expected one of `state`, `items`, `filler`, `broken`, `exceptions`, `interlocks`, found the unknown field `itmes`",
+                "expected one of `state`, `items`, `numbered_from`, `filler`, `broken`, `exceptions`, `interlocks`, found the unknown field `itmes`",
             ),
             (
                 json!({"filler": "some"}),
@@ -272,7 +280,10 @@ mod tests {
                 json!({"interlocks": [{"tools": ["cutboard_1"], "loaded": "counter_1"}]}),
                 "interlocks `counter_1`, which is none of the room's tools",
             ),
-            (json!({"state": state, "items": ["plate"]}), "`items` and `filler` have no place beside it"),
+            (
+                json!({"state": state, "items": ["plate"]}),
+                "`items`, `numbered_from` and `filler` have no place beside it",
+            ),
             (json!({"state": {"entities": []}}), "the scenario's state is not a kitchen: there is no agent"),
             (json!({"state": {"objects": {}}}), "`entities` is missing"),
         ];
