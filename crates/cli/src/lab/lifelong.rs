@@ -2,6 +2,7 @@
 
 use std::io::Write;
 
+use typelift::belief::Culprit;
 use typelift::words::count;
 use typelift_lab::{Agent, LifelongOptions, LifelongResult, lifelong_experiment};
 
@@ -40,7 +41,7 @@ pub(super) struct LabLifelong {
     /// Only this agent: memory, forgetful, paper or informed; may be repeated
     #[arg(long, value_name = "NAME", value_parser = parse_agent)]
     agent: Vec<Agent>,
-    /// List every step that the agent with a memory failed, with its true cause
+    /// List every step that the agent with a memory failed, with its true cause and what was blamed
     #[arg(long)]
     explain: bool,
 }
@@ -164,18 +165,39 @@ fn print_truth(out: &mut dyn Write, result: &LifelongResult, explain: bool) -> R
     Ok(())
 }
 
+/// Explanations of a failure that are told.
+const MOST_BLAMED: usize = 3;
+
+fn culprit(kind: Culprit) -> &'static str {
+    match kind {
+        Culprit::Object => "an object",
+        Culprit::Type => "a type",
+        Culprit::Pair => "a pair",
+        Culprit::Literal => "a literal",
+        Culprit::Chance => "chance",
+    }
+}
+
 /// What the agent with a memory failed, and where.
 fn explain_failures(out: &mut dyn Write, result: &LifelongResult) -> Result<(), Failure> {
     for (run, record) in result.records.iter().filter(|(run, _)| run.agent == Agent::Memory) {
         writeln!(out, "\n{HEAD}{run}{HEAD:#}")?;
         for (number, task) in (1..).zip(&record.tasks) {
-            for step in task.failed.iter().filter(|step| !step.retry) {
+            for (at, step) in task.failed.iter().enumerate().filter(|(_, step)| !step.retry) {
                 let mut text = format!("{number} {}: {} as {}: {}", task.task, step.call, step.action, step.cause);
                 if let Some(p) = step.p {
                     text += &format!("; p was {p:.2}");
                 }
                 if let Some(better) = step.better {
                     text += &format!(", of another plan {better:.2}");
+                }
+                // What counts as a failure is the last try.
+                let retries = task.failed[at + 1..].iter().take_while(|step| step.retry);
+                let blamed = retries.last().unwrap_or(step).explanations.iter().take(MOST_BLAMED);
+                let blamed: Vec<String> =
+                    blamed.map(|one| format!("{} {:.0} %", culprit(one.kind), one.share * 100.0)).collect();
+                if !blamed.is_empty() {
+                    text += &format!("; blamed: {}", blamed.join(", "));
                 }
                 writeln!(out, "  {}", wrapped(text.split(' '), 4, 78))?;
             }

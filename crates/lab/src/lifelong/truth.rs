@@ -235,6 +235,6 @@ fn happens(schema: &ActionSchema, call: &GroundCall, before: &State, after: &Sta
     }
     lists.iter().any(|objects| {
         let expected = schema.instantiate(objects, before, &model.hierarchy);
-        expected.is_ok_and(|expected| compare(&expected, before, after, true).verdict == Verdict::AsExpected)
+        expected.is_ok_and(|expected| compare(&expected, before, after, true, model).verdict == Verdict::AsExpected)
     })
 }
