@@ -1,6 +1,6 @@
 //! Kitchens that are watched, and in which things happen that nobody planned.
 
-use typelift::agent::{Account, Confirmation, Episode, Event, Experience, Options, run};
+use typelift::agent::{Account, Confirmation, Episode, Event, Experience, Options, Person, run};
 use typelift::model::{ActionModel, Budget, GroundCall, ParseConfig, Plan, State, Symbol};
 use typelift::world::{Acted, Parser, Reset, Scene, World, WorldError};
 use typelift_kitchen::{Kitchen, KitchenTask};
@@ -96,7 +96,7 @@ pub fn run_in(
     seed: u64,
     options: &Options,
     experience: Experience,
-    confirm: &mut dyn FnMut(&Plan) -> Confirmation,
+    person: &mut dyn Person,
 ) -> Ran {
     let mut parser = Parser::new(model.hierarchy.clone(), ParseConfig::default());
     let budget = Budget::with_expansions(20_000);
@@ -104,7 +104,7 @@ pub fn run_in(
     let reset = Reset { seed, scenario: Some(task.scenario.clone()) };
     let mut events: Vec<Event> = Vec::new();
     let told = world.told.len();
-    let ran = run(&mut episode, world, &reset, &mut parser, confirm, &mut events, &mut []);
+    let ran = run(&mut episode, world, &reset, &mut parser, person, &mut events, &mut []);
     let account = ran.expect("the simulator works");
     let left = world.observe().map(|scene| parser.parse(&scene).expect("a state")).expect("the simulator works");
     assert_eq!(account.solved(), left.satisfies(&task.goal), "{}: the world agrees with the account", task.name);

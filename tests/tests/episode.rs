@@ -338,6 +338,38 @@ fn what_a_person_objects_to_is_what_is_avoided() {
 }
 
 #[test]
+fn another_object_is_wanted_instead() {
+    let instead = |object: Option<&str>, with: &str| {
+        Some(Objection::Instead { object: object.map(Symbol::new), with: with.into() })
+    };
+    let mut it = ByHand::asked(Options::default());
+    assert_eq!(it.reject(1, instead(None, "saw_2")), "propose cut(saw_2, b)");
+    // Of two words that contradict each other the later counts.
+    let broken = Some(Objection::Broken { objects: vec!["saw_2".into()] });
+    assert_eq!(it.reject(1, broken), "propose cut(saw_1, b)");
+    let said = it.events.iter().filter_map(|event| match event {
+        Event::Overruled { reason } => Some(reason.as_str()),
+        _ => None,
+    });
+    assert_eq!(said.collect::<Vec<_>>(), ["cut(saw_1, b) was rejected: blunt"]);
+    assert_eq!(it.reject(1, instead(Some("saw_1"), "saw_2")), "propose cut(saw_2, b)");
+    // What is not there, or takes part already, or stands for nothing of the step, is not understood.
+    for objection in [instead(None, "saw_9"), instead(None, "saw_2"), instead(Some("saw_1"), "saw_1")] {
+        assert_eq!(it.reject(1, objection), "propose cut(saw_2, b)");
+    }
+}
+
+#[test]
+fn what_a_person_shows_is_planned_from() {
+    let mut it = ByHand::asked(Options::default());
+    let (whole, cut) = (it.whole.clone(), it.cut.clone());
+    let shown = |it: &mut ByHand, state| it.answer(|id| Input::Shown { id, state });
+    assert_eq!(shown(&mut it, whole), "propose cut(saw_1, b)");
+    assert_eq!(it.account().proposals, 2);
+    assert_eq!(shown(&mut it, cut), "done, solved");
+}
+
+#[test]
 fn an_objection_that_is_not_about_the_step_changes_nothing() {
     let mut it = ByHand::asked(Options::default());
     let (other, unknown) = (vec![Symbol::new("saw_2")], GroundAtom::parse("rusty(b)").expect("an atom"));

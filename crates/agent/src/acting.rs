@@ -4,8 +4,10 @@
 //! tried again. Then it imagines and plans again: from the initial state if the world is set back (the paper's way),
 //! else from where it is.
 
+use std::collections::BTreeSet;
+
 use typelift_belief::Deed;
-use typelift_model::{State, Symbol};
+use typelift_model::{GroundCall, State, Symbol};
 use typelift_plan::Ban;
 use typelift_world::{Expected, Record, TraceAction, Verdict};
 
@@ -14,6 +16,7 @@ use crate::deed::Failed;
 use crate::episode::{Episode, EpisodeError, Phase};
 use crate::event::{Event, Observer};
 use crate::execution::Execution;
+use crate::instead;
 use crate::monitor::{Comparison, StepResult, compare};
 use crate::objection::Objection;
 use crate::turn::Command;
@@ -186,6 +189,9 @@ impl Episode {
     ) -> Result<Command, EpisodeError> {
         let Some(execution) = &mut self.execution else { return Ok(self.standing()) };
         let at = step.clamp(1, execution.plan.len()) - 1;
+        let in_goal = |object: &Symbol| self.goal.mentions(object);
+        let objection =
+            objection.map(|said| instead::named(said, &execution.plan.steps[at], &self.state, &self.model, in_goal));
         let fits = match &objection {
             Some(Objection::Broken { objects } | Objection::WrongKind { objects }) => {
                 objects.iter().all(|object| execution.plan.steps[at].objects.contains(object))
@@ -193,6 +199,7 @@ impl Episode {
             Some(Objection::While { atom }) => {
                 self.model.predicates.get(&atom.predicate).map(Vec::len) == Some(atom.arity())
             }
+            Some(Objection::Instead { object, .. }) => object.is_some(),
             Some(Objection::NotNow) | None => true,
         };
         if !fits {
@@ -203,8 +210,47 @@ impl Episode {
         let reason = Some(reason).filter(|reason| !reason.is_empty());
         self.report_step(StepResult::Rejected, reason.clone(), None, Vec::new(), &self.state, observer);
         let state = self.state.clone();
+        self.overrule(objection.as_ref(), observer);
         self.note_failure(StepResult::Rejected, reason, Vec::new(), objection, &state, observer);
         self.again(observer)
+    }
+
+    /// What was said before and is contradicted by this objection to the next step no longer counts: what spoke against an
+    /// object that is wanted now, and that one was wanted which something speaks against now.
+    fn overrule(&mut self, objection: Option<&Objection>, observer: &mut dyn Observer) {
+        let Some(step) = self.execution.as_ref().and_then(Execution::step) else { return };
+        let overruled = match objection {
+            Some(Objection::Instead { with, .. }) => {
+                let Some(ty) = self.state.objects.get(with).copied() else { return };
+                let call = step.call.name.clone();
+                self.experience.overrule(&call, with, ty, &self.instance, &self.model.hierarchy)
+            }
+            Some(Objection::Broken { objects } | Objection::WrongKind { objects }) => {
+                let objects = if objects.is_empty() { step.objects.clone() } else { objects.clone() };
+                self.experience.overrule_wanted(&objects, &self.instance)
+            }
+            _ => return,
+        };
+        for reason in overruled {
+            observer.event(&Event::Overruled { reason });
+        }
+    }
+
+    /// The type of the object that is wanted.
+    fn wanted(&self, objection: Option<&Objection>) -> Option<Symbol> {
+        let Some(Objection::Instead { with, .. }) = objection else { return None };
+        self.state.objects.get(with).map(|ty| self.model.hierarchy.name(*ty).clone())
+    }
+
+    /// The calls that are not made in this task after an objection to the next step.
+    fn not_made(&self, objection: Option<&Objection>) -> BTreeSet<GroundCall> {
+        let step = self.execution.as_ref().and_then(Execution::step);
+        match (objection, step) {
+            (Some(Objection::Instead { object: Some(object), with }), Some(step)) => {
+                instead::others(&step.call, object, with, &self.state, &self.model)
+            }
+            _ => BTreeSet::new(),
+        }
     }
 
     /// Notes that the next step failed, or was rejected, in the state `before`, and what is to blame.
@@ -237,6 +283,8 @@ impl Episode {
         let failed = Failed {
             count: 1 + u64::from(execution.retries),
             ban: execution.expected(before).map(|action| Ban::of(&action)),
+            not_made: self.not_made(objection.as_ref()),
+            wanted: self.wanted(objection.as_ref()),
             objection,
             useless: self.options.restart,
             rejected: result == StepResult::Rejected,

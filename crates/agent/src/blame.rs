@@ -209,6 +209,7 @@ fn objected(failed: &Failed, objection: &Objection) -> Vec<Suspect> {
             let (call, adds, atom) = (deed.call.clone(), deed.adds.clone(), atom.clone());
             vec![Suspect::Condition(Condition { call, adds, atom, holds: false, args: deed.named() })]
         }
+        Objection::Instead { object, .. } => broken(failed, named(object.as_slice())),
         Objection::NotNow => Vec::new(),
     }
 }
@@ -313,6 +314,8 @@ mod tests {
             around: BTreeSet::new(),
             actors: ["agent_1".into()].into(),
             in_goal: ["nut_1".into(), "leek_1".into()].into(),
+            not_made: BTreeSet::new(),
+            wanted: None,
             objection,
             useless: false,
             rejected: false,

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use serde::{Deserialize, Serialize};
 use typelift_belief::Deed;
-use typelift_model::{ActionModel, Goal, GroundAtom, State, Symbol};
+use typelift_model::{ActionModel, Goal, GroundAtom, GroundCall, State, Symbol};
 use typelift_plan::Ban;
 
 use crate::actors::actors;
@@ -46,6 +46,12 @@ pub struct Failed {
     pub actors: BTreeSet<Symbol>,
     /// Who the goal speaks of: rarely to blame.
     pub in_goal: BTreeSet<Symbol>,
+    /// The calls that are not made in this task, since a person wants another one instead.
+    #[serde(default, skip_serializing_if = "BTreeSet::is_empty")]
+    pub not_made: BTreeSet<GroundCall>,
+    /// The type of the object that a person wants instead.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wanted: Option<Symbol>,
     /// What a person said against it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub objection: Option<Objection>,
@@ -81,6 +87,8 @@ impl Failed {
             around: around(&deed, &actors, model, before),
             actors,
             in_goal: objects().filter(|object| goal.mentions(object)).cloned().collect(),
+            not_made: BTreeSet::new(),
+            wanted: None,
             objection: None,
             useless: false,
             rejected: false,
@@ -99,7 +107,7 @@ impl Failed {
     pub(crate) fn banned(&self, task: u64) -> Option<&Ban> {
         match &self.objection {
             Some(Objection::While { .. }) => None,
-            Some(Objection::NotNow) if self.task != task => None,
+            Some(Objection::NotNow | Objection::Instead { .. }) if self.task != task => None,
             _ => self.ban.as_ref(),
         }
     }

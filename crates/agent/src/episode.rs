@@ -224,7 +224,9 @@ impl Episode {
             (Phase::AwaitingLateState, Input::Observation { state, .. } | Input::Refused { state, .. }) => {
                 self.judge(state, Some(Verdict::TimedOut), None, observer)
             }
-            (Phase::AwaitingState, Input::Observation { state, .. }) => {
+            // What was proposed was for another state.
+            (Phase::AwaitingApproval, Input::Shown { state, .. })
+            | (Phase::AwaitingState, Input::Observation { state, .. }) => {
                 self.state = state;
                 self.propose(observer)
             }

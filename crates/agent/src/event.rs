@@ -89,6 +89,11 @@ pub enum Event<P = Plan> {
         /// Why.
         reason: String,
     },
+    /// What a person said before no longer counts, since the same person, or another one, said something else.
+    Overruled {
+        /// What was said, with the step that it was about.
+        reason: String,
+    },
     /// The world changed by itself: the next step of the plan is no longer applicable.
     Drifted {
         /// The step's number, from 1.
@@ -129,6 +134,7 @@ impl<P: Clone> Event<P> {
             }
             Self::Retried { call } => Event::Retried { call },
             Self::Excluded { suspect, reason } => Event::Excluded { suspect, reason },
+            Self::Overruled { reason } => Event::Overruled { reason },
             Self::Drifted { step, missing } => Event::Drifted { step, missing },
             Self::LastResort { resort } => Event::LastResort { resort },
             Self::NoOtherPlan { proposal, why } => Event::NoOtherPlan { proposal, why },

@@ -2,12 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 use typelift_belief::Deed;
-use typelift_model::{State, Symbol};
+use typelift_model::{Hierarchy, State, Symbol, TypeId};
 use typelift_plan::{Ban, Restrictions};
 
 use crate::account::Avoided;
 use crate::blame::Blame;
 use crate::deed::{Failed, Success};
+use crate::objection::Objection;
 use crate::resort::CountedExclusions;
 use crate::suspect::{Certainty, Condition, Suspect};
 
@@ -70,6 +71,44 @@ impl Experience {
         self.failures.push(Failed { when: self.deeds, ..failed });
     }
 
+    /// Of what people said before, what speaks against this object in this call, itself or its kind, no longer counts. Gives
+    /// what it was.
+    pub(crate) fn overrule(
+        &mut self,
+        call: &Symbol,
+        object: &Symbol,
+        ty: TypeId,
+        instance: &Symbol,
+        hierarchy: &Hierarchy,
+    ) -> Vec<String> {
+        let is_of = |name: &Symbol| hierarchy.id(name.as_str()).is_some_and(|kind| hierarchy.is_a(ty, kind));
+        let speaks_against = |failed: &Failed| {
+            let is_here = failed.deed.instance == *instance;
+            failed.suspects().any(|suspect| match suspect {
+                Suspect::Object(one) => is_here && one.object == *object,
+                Suspect::Types(types) => types.types.values().any(is_of),
+                Suspect::Condition(_) => false,
+            })
+        };
+        let is_overruled = |failed: &Failed| failed.rejected && failed.deed.call == *call && speaks_against(failed);
+        self.drop_words(is_overruled)
+    }
+
+    /// Of what people said before, that one of these objects is wanted no longer counts. Gives what it was.
+    pub(crate) fn overrule_wanted(&mut self, objects: &[Symbol], instance: &Symbol) -> Vec<String> {
+        self.drop_words(|failed| match &failed.objection {
+            Some(Objection::Instead { with, .. }) => failed.deed.instance == *instance && objects.contains(with),
+            _ => false,
+        })
+    }
+
+    fn drop_words(&mut self, is_dropped: impl Fn(&Failed) -> bool) -> Vec<String> {
+        let (dropped, kept): (Vec<Failed>, Vec<Failed>) =
+            std::mem::take(&mut self.failures).into_iter().partition(is_dropped);
+        self.failures = kept;
+        dropped.into_iter().map(|failed| failed.reason).collect()
+    }
+
     /// Weighs anew what is to blame for each failure, with all that was tried until now.
     pub(crate) fn reconsider(&mut self, blame: &Blame<'_>) {
         let suspects = blame.of_each(&self.failures, &self.successes, self.tasks);
@@ -117,6 +156,9 @@ impl Experience {
         for failed in &self.failures {
             let (ban, suspects) = self.avoided_after(failed, instance, state, counted);
             restrictions.banned.extend(ban.cloned());
+            if failed.task == self.tasks && failed.deed.instance == *instance {
+                restrictions.calls.extend(failed.not_made.iter().cloned());
+            }
             for suspect in suspects {
                 match suspect {
                     Suspect::Object(exclusion) => {
@@ -158,7 +200,9 @@ impl Experience {
     ) -> (Option<&'f Ban>, Vec<Suspect>) {
         let is_here = failed.deed.instance == *instance;
         let in_this_task = failed.task == self.tasks;
+        let is_over = matches!(failed.objection, Some(Objection::Instead { .. })) && !in_this_task;
         let counts = |certainty: Certainty| match counted {
+            _ if is_over => false,
             _ if failed.rejected || failed.objection.is_some() => true,
             CountedExclusions::All => true,
             CountedExclusions::Likely => certainty > Certainty::Guessed,
@@ -196,7 +240,6 @@ mod tests {
     use typelift_plan::{Exclusion, TypeExclusion};
 
     use super::*;
-    use crate::objection::Objection;
     use crate::suspect::Suspected;
 
     /// A failure of `use` in an instance, which was blamed on a board and on nuts.
@@ -218,6 +261,8 @@ mod tests {
             around: std::collections::BTreeSet::new(),
             actors: ["agent_1".into()].into(),
             in_goal: ["nut_1".into()].into(),
+            not_made: std::collections::BTreeSet::new(),
+            wanted: None,
             objection,
             useless: false,
             rejected: false,

@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 use typelift_model::{GroundAtom, Symbol};
 
-/// What a person says against a step.
+/// What a person says against a step. An agent takes it as certain: neither what failed nor what worked outweighs it, and of
+/// two words that contradict each other the later counts.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(tag = "because", rename_all = "snake_case")]
@@ -28,4 +29,12 @@ pub enum Objection {
     },
     /// Not in this task.
     NotNow,
+    /// In this task another object in place of one of the step.
+    Instead {
+        /// An object of the step; if none is named, the one that is most of the other's kind.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        object: Option<Symbol>,
+        /// The object that is wanted.
+        with: Symbol,
+    },
 }

@@ -10,30 +10,8 @@ use typelift_world::{
 use crate::account::Account;
 use crate::episode::{Episode, EpisodeError};
 use crate::event::{Event, Observer};
-use crate::objection::Objection;
+use crate::person::{Confirmation, Person, Shown};
 use crate::turn::{Command, CommandId, Input};
-
-/// The answer of the person who is asked about a plan.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Confirmation {
-    /// Execute it: nobody need be asked.
-    Approve,
-    /// Execute it: a person said so.
-    Agree,
-    /// Do not take this step, counted from 1; the plan is dropped.
-    Reject {
-        /// The step.
-        step: usize,
-        /// What speaks against it.
-        objection: Option<Objection>,
-        /// Why, in words.
-        reason: String,
-    },
-    /// Propose another one.
-    AnotherPlan,
-    /// End the episode.
-    Stop,
-}
 
 /// Why an episode could not be driven to its end.
 #[derive(Debug, Error)]
@@ -52,7 +30,7 @@ pub enum RunError {
     Record(#[from] FileError),
 }
 
-/// Drives an episode over a world; `confirm` is asked before each plan is executed. An action that is not finished in time
+/// Drives an episode over a world; `person` is asked before each plan is executed. An action that is not finished in time
 /// is followed by an observation, as long as the world gives one.
 ///
 /// Each of the sinks is given each step before the observer is told of it and before the next action is sent: with a
@@ -66,7 +44,7 @@ pub fn run(
     world: &mut dyn World,
     reset: &Reset,
     parser: &mut Parser,
-    confirm: &mut dyn FnMut(&Plan) -> Confirmation,
+    person: &mut dyn Person,
     observer: &mut dyn Observer,
     sinks: &mut [&mut dyn RecordSink],
 ) -> Result<Account, RunError> {
@@ -74,7 +52,7 @@ pub fn run(
     let mut input = Input::Started;
     let mut spoken: Option<Said> = None;
     loop {
-        let told = episode.experience().failures().len();
+        let told = episode.account.failures.len();
         let command = episode.step(input, &mut recording);
         let heard = spoken.take().and_then(|said| episode.understood(said, told));
         recording.spoken(heard.as_ref());
@@ -97,12 +75,17 @@ pub fn run(
                 Input::Observation { id, state }
             }
             Command::Propose { id, plan } => {
-                let confirmation = confirm(&plan);
+                let confirmation = person.confirm(&plan, episode.state());
                 spoken = said(&confirmation, episode.instance());
                 match confirmation {
                     Confirmation::Approve | Confirmation::Agree => Input::Approve { id },
                     Confirmation::Reject { step, objection, reason } => Input::Reject { id, step, objection, reason },
                     Confirmation::AnotherPlan => Input::AnotherPlan { id },
+                    Confirmation::Show => {
+                        recording.spoken(spoken.take().as_ref());
+                        let state = demonstrate(episode, world, parser, person, &mut recording)?;
+                        Input::Shown { id, state }
+                    }
                     Confirmation::Stop => Input::Stop,
                 }
             }
@@ -125,6 +108,31 @@ pub fn run(
     }
 }
 
+/// Has a person do what they want to show, and keeps it as what it is: a demonstration. Gives the state that it leads to.
+fn demonstrate(
+    episode: &Episode,
+    world: &mut dyn World,
+    parser: &mut Parser,
+    person: &mut dyn Person,
+    recording: &mut RecordingObserver<'_, '_>,
+) -> Result<State, RunError> {
+    let mut state = episode.state().clone();
+    let mut last: Option<Shown> = None;
+    while let Some(call) = person.show(&state, last.as_ref()) {
+        recording.begin(world, episode.instance())?;
+        let (scene, executed, reason) = match world.act(&call) {
+            Err(WorldError::TimedOut { .. }) => (world.observe()?, None, None),
+            acted => acted.map(|Acted { scene, executed, reason }| (scene, Some(executed), reason))?,
+        };
+        let after = parser.parse(&scene)?;
+        recording.shown(&TraceAction { executed, reason: reason.clone(), ..call.clone().into() }, &scene)?;
+        let (added, deleted) = (state.added(&after).cloned().collect(), state.deleted(&after).cloned().collect());
+        last = Some(Shown { call, executed, reason, added, deleted });
+        state = after;
+    }
+    Ok(state)
+}
+
 /// What a person said of a plan, if anything; of which step, and what follows, is seen once it was understood.
 fn said(confirmation: &Confirmation, instance: &Symbol) -> Option<Said> {
     let (reply, because) = match confirmation {
@@ -132,6 +140,7 @@ fn said(confirmation: &Confirmation, instance: &Symbol) -> Option<Said> {
         Confirmation::Agree => (Reply::Yes, String::new()),
         Confirmation::Reject { reason, .. } => (Reply::No, reason.clone()),
         Confirmation::AnotherPlan => (Reply::Another, String::new()),
+        Confirmation::Show => (Reply::Shown, String::new()),
     };
     Some(Said { reply, instance: instance.clone(), call: None, because, experience: None })
 }
@@ -200,6 +209,11 @@ impl<'a, 's> RecordingObserver<'a, 's> {
             self.has_begun = true;
         }
         Ok(())
+    }
+
+    /// A person did something.
+    fn shown(&mut self, action: &TraceAction, after: &Scene) -> Result<(), FileError> {
+        self.sinks.iter_mut().try_for_each(|sink| sink.step(action, after))
     }
 
     /// A person said something, or nothing; and after that a plan may have been proposed.

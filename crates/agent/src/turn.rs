@@ -133,6 +133,13 @@ pub enum Input<S = State> {
         /// The id of the proposal that was shown.
         id: CommandId,
     },
+    /// A person showed what to do instead of the proposed plan; with what is observed now.
+    Shown {
+        /// The id of the proposal that was shown.
+        id: CommandId,
+        /// What is observed.
+        state: S,
+    },
     /// The environment declined the action; with what is observed now. The observation decides: if what was
     /// expected happened all the same, the step succeeded.
     Refused {
@@ -162,6 +169,7 @@ impl<S> Input<S> {
             | Self::Approve { id }
             | Self::Reject { id, .. }
             | Self::AnotherPlan { id }
+            | Self::Shown { id, .. }
             | Self::Refused { id, .. }
             | Self::TimedOut { id } => Some(*id),
         }
@@ -179,6 +187,7 @@ impl<S> Input<S> {
             Self::Approve { id } => Input::Approve { id },
             Self::Reject { id, step, objection, reason } => Input::Reject { id, step, objection, reason },
             Self::AnotherPlan { id } => Input::AnotherPlan { id },
+            Self::Shown { id, state } => Input::Shown { id, state: read(state)? },
             Self::Refused { id, reason, state } => Input::Refused { id, reason, state: read(state)? },
             Self::TimedOut { id } => Input::TimedOut { id },
             Self::Stop => Input::Stop,

@@ -1,7 +1,7 @@
 //! What a person said, as experience keeps it: for the memory of another run.
 
 use thiserror::Error;
-use typelift_model::json_message;
+use typelift_model::{ActionModel, json_message};
 use typelift_world::{Reply, Said};
 
 use crate::deed::Failed;
@@ -21,18 +21,20 @@ pub struct WordError {
 
 impl Episode {
     /// What was said, once it was answered: with the step that it is about, and what follows from it. None if it was not
-    /// understood: an objection that is none to the step. `told` is how many failures were known before.
+    /// understood: an objection that is none to the step. `told` is how many failures there were before in this task.
     pub(crate) fn understood(&self, said: Said, told: usize) -> Option<Said> {
         if said.reply != Reply::No {
             return Some(said);
         }
-        let failed = self.experience.failures().get(told)?;
-        let call = self.account.failures.iter().rev().find(|failure| failure.record.is_none());
-        let kept = Failed { suspects: Vec::new(), ..failed.clone() };
+        if self.account.failures.len() == told {
+            return None;
+        }
+        let failed = self.experience.failures().last()?;
+        let call = self.account.failures.last();
         Some(Said {
             call: call.map(|failure| failure.call.clone()),
             // Plain data with names as keys.
-            experience: serde_json::to_value(kept).ok(),
+            experience: serde_json::to_value(failed).ok(),
             ..said
         })
     }
@@ -44,14 +46,21 @@ impl Experience {
     ///
     /// # Errors
     /// [`WordError`] if it is not as an agent kept it.
-    pub fn hear(&mut self, said: &Said) -> Result<(), WordError> {
+    pub fn hear(&mut self, said: &Said, model: &ActionModel) -> Result<(), WordError> {
         let Some(kept) = &said.experience else { return Ok(()) };
         let failed: Failed = serde_json::from_value(kept.clone()).map_err(|error| WordError {
             of: said.call.as_ref().map(ToString::to_string).unwrap_or_default(),
             why: json_message(&error),
         })?;
-        if failed.objection != Some(Objection::NotNow) {
-            self.failed(Failed { task: 0, ..failed });
+        match &failed.objection {
+            Some(Objection::NotNow) => {}
+            Some(Objection::Instead { with, .. }) => {
+                let ty = failed.wanted.as_ref().and_then(|ty| model.hierarchy.id(ty.as_str()));
+                if let Some(ty) = ty {
+                    self.overrule(&failed.deed.call, with, ty, &failed.deed.instance, &model.hierarchy);
+                }
+            }
+            _ => self.failed(Failed { task: 0, ..failed }),
         }
         Ok(())
     }

@@ -114,7 +114,7 @@ pub(crate) fn recall(memory: &Memory) -> Result<(Observations, Experience), Fail
 /// Takes in what people said in the runs before.
 fn hear(memory: &Memory, experience: &mut Experience) -> Result<(), Failure> {
     for (entry, said) in memory.words()? {
-        experience.hear(&said).map_err(|error| {
+        experience.hear(&said, &memory.learned().model).map_err(|error| {
             let what = format!("{}: entry {entry}: {error}", memory.file().display());
             Failure::bad_input(what).with_hint(format!("`typelift memory forget --word {entry}` takes it back."))
         })?;

@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use clap::ValueEnum;
 use typelift::agent::{BlameRule, Command, Ending, Episode, EpisodeError, Experience, Input, Options, RunError, run};
-use typelift::model::{ActionModel, Observations, Plan, State, Stop, Symbol, Task};
+use typelift::model::{ActionModel, Observations, State, Stop, Symbol, Task};
 use typelift::words::{AccountView, BrokenOffView, summary};
 use typelift::world::{
     FileError, Parser, RecordSink, Recorder, Reset, Scene, TaskFile, TraceHeader, UnreadKey, World, read_text,
@@ -16,7 +16,7 @@ use typelift::world::{
 use typelift_kitchen::Kitchen;
 use typelift_memory::{Memory, looks_like_memory};
 
-use crate::confirm::{Which, confirm};
+use crate::confirm::{Asked, Which};
 use crate::environment::{Timeouts, start};
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -278,14 +278,14 @@ impl Run {
                 .with_values(task.values)
                 .with_evidence(Arc::clone(evidence));
         let mut parser = Parser::new(model.hierarchy.clone(), input.parse()).knowing(&model.predicates);
-        let mut confirm = |plan: &Plan| confirm(self.confirm, plan, &model, interrupt);
+        let mut asked = Asked { which: self.confirm, model: &model, interrupt };
         let header = TraceHeader { task: name.clone(), goal: task.goal };
         let mut remembering = memory.as_mut().map(|memory| memory.episode(header.clone()));
         let mut recorder = self.record.as_ref().map(|folder| Recorder::new(folder, &name, header));
         let kept = remembering.as_mut().map(|sink| sink as &mut dyn RecordSink);
         let recorded = recorder.as_mut().map(|sink| sink as &mut dyn RecordSink);
         let mut sinks: Vec<&mut dyn RecordSink> = kept.into_iter().chain(recorded).collect();
-        let mut ran = run(&mut episode, &mut **world, &reset, &mut parser, &mut confirm, narrator, &mut sinks);
+        let mut ran = run(&mut episode, &mut **world, &reset, &mut parser, &mut asked, narrator, &mut sinks);
         for file in recorder.iter().flat_map(Recorder::files).filter(|_| !*quiet) {
             anstream::eprintln!("recorded {}", file.display());
         }

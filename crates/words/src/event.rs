@@ -40,6 +40,7 @@ pub fn line(event: &Event) -> Option<Text> {
         }
         Event::Retried { .. } => indented().with(Role::Aside, "again"),
         Event::Excluded { suspect, .. } => indented().with(Role::Warning, "excluded").plain(format!(": {suspect}")),
+        Event::Overruled { reason } => indented().plain(format!("no longer counts: {reason}")),
         Event::Drifted { missing, .. } => indented().plain(match missing.strip_prefix("not ") {
             Some(atom) => format!("the world changed by itself: {atom} holds now"),
             None if missing.contains('(') => format!("the world changed by itself: {missing} no longer holds"),

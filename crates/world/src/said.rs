@@ -32,4 +32,6 @@ pub enum Reply {
     No,
     /// Another plan is wanted, though nothing speaks against this one.
     Another,
+    /// They showed what to do instead.
+    Shown,
 }

@@ -62,12 +62,15 @@ pub(super) fn in_words(Said { reply, call, because, .. }: &Said) -> String {
         Reply::Yes => "yes",
         Reply::No => "no",
         Reply::Another => "another plan is wanted",
+        Reply::Shown => "let me show you",
     };
     format!("{reply}{call}{because}")
 }
 
-fn step(TraceAction { call, reason, verdict, .. }: &TraceAction) -> String {
-    let verdict = verdict.map_or("", Verdict::word).replace('-', " ");
+fn step(TraceAction { call, executed, reason, verdict, .. }: &TraceAction) -> String {
+    // What a person does is not judged.
+    let shown = if *executed == Some(false) { "shown, refused" } else { "shown" };
+    let verdict = verdict.map_or(shown, Verdict::word).replace('-', " ");
     let reason = reason.as_ref().map(|reason| format!(" ({reason})")).unwrap_or_default();
     format!("  {call}: {verdict}{reason}")
 }
