@@ -1,7 +1,7 @@
 //! A blocking driver: an episode over a world.
 
 use thiserror::Error;
-use typelift_model::{Plan, State, Symbol};
+use typelift_model::{GroundCall, Plan, State, Symbol};
 use typelift_world::{
     Acted, Beginning, FileError, ParseError, Parser, Record, RecordSink, Reply, Reset, Said, Scene, TraceAction, World,
     WorldError, instance_of,
@@ -50,6 +50,8 @@ pub fn run(
 ) -> Result<Account, RunError> {
     let mut recording = RecordingObserver::new(observer, sinks);
     let mut input = Input::Started;
+    // An action that was not finished in time, until something is observed.
+    let mut late: Option<GroundCall> = None;
     let mut spoken: Option<Said> = None;
     loop {
         let told = episode.account.failures.len();
@@ -69,7 +71,11 @@ pub fn run(
                 Input::Reset { id, state, instance: Some(instance_of(world, reset)) }
             }
             Command::Observe { id } | Command::Await { id, .. } => {
-                let scene = world.observe()?;
+                let scene = world.observe().map_err(|error| match &late {
+                    None => error,
+                    Some(call) => error.after(&format!("{call} was not finished in time")),
+                })?;
+                late = None;
                 let state = parser.parse(&scene)?;
                 recording.observed(scene);
                 Input::Observation { id, state }
@@ -94,6 +100,7 @@ pub fn run(
                 match world.act(&call) {
                     Err(WorldError::TimedOut { .. }) => {
                         recording.is_late = true;
+                        late = Some(call);
                         Input::TimedOut { id }
                     }
                     acted => {

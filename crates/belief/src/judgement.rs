@@ -7,6 +7,7 @@ use typelift_model::{
 
 use crate::action::ActionBelief;
 use crate::cause::Cause;
+use crate::unmet::unmet;
 
 /// A call whose fate is asked.
 #[derive(Debug, Clone)]
@@ -58,6 +59,8 @@ pub struct Judgement {
     pub action: Option<Symbol>,
     /// What speaks against it, the greatest share first.
     pub suspects: Vec<Suspect>,
+    /// Why the model alone does not allow it, a phrase each: wrong types, or preconditions that do not hold in the state.
+    pub unmet: Vec<String>,
 }
 
 /// What is believed of every action of a learned model.
@@ -75,12 +78,14 @@ impl<'m> Belief<'m> {
         Self { model, actions: actions.collect() }
     }
 
-    /// How likely a call works: by the action of which that is likeliest, of several alike the first by name.
+    /// How likely a call works: by the action of which that is likeliest, of several alike the first by name; by one that the
+    /// model allows, if it allows any.
     pub fn judge(&self, question: &Question<'_>) -> Judgement {
         let schemas = self.model.actions.iter().zip(&self.actions);
         let judged = schemas.filter_map(|(schema, belief)| self.judge_by(schema, belief, question));
-        let nothing = Judgement { p: 0.0, action: None, suspects: Vec::new() };
-        judged.fold(nothing, |best, next| if best.action.is_none() || next.p > best.p { next } else { best })
+        let nothing = Judgement { p: 0.0, action: None, suspects: Vec::new(), unmet: Vec::new() };
+        let rank = |judgement: &Judgement| (judgement.action.is_some(), judgement.unmet.is_empty(), judgement.p);
+        judged.fold(nothing, |best, next| if rank(&next) > rank(&best) { next } else { best })
     }
 
     fn judge_by(&self, schema: &ActionSchema, belief: &ActionBelief, question: &Question<'_>) -> Option<Judgement> {
@@ -106,7 +111,8 @@ impl<'m> Belief<'m> {
             .map(|(cause, odds)| self.suspect(&cause, odds / sum, &bound, question.call))
             .collect();
         suspects.sort_by(|a, b| b.share.total_cmp(&a.share).then_with(|| a.what.cmp(&b.what)));
-        Some(Judgement { p, action: Some(schema.name.clone()), suspects })
+        let unmet = unmet(schema, &bound, question.call, question.types, question.state, self.model);
+        Some(Judgement { p, action: Some(schema.name.clone()), suspects, unmet })
     }
 
     fn suspect(&self, cause: &Cause, share: f64, bound: &[Option<usize>], call: &GroundCall) -> Suspect {

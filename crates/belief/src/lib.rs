@@ -33,6 +33,7 @@ mod object;
 mod outcome;
 mod suspicion;
 mod types;
+mod unmet;
 
 pub use action::ActionBelief;
 pub use cause::{Cause, Pair};

@@ -1,13 +1,13 @@
 //! `typelift check-env`.
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use typelift::model::{GroundAtom, GroundCall, Hierarchy, ParseConfig, Symbol};
 use typelift::words::{InspectionView, inspection_lines};
 use typelift::world::{BrokenOff, InspectOptions, Inspection, Reset, World, inspect, read_task, read_types};
 
-use crate::environment::{Timeouts, start};
+use crate::environment::{Timeouts, start, wanted_setup, warn_of_no_reset};
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::limits::Interrupt;
@@ -70,6 +70,7 @@ impl CheckEnv {
         let types = self.types.as_deref().map(read_types).transpose()?;
         let hierarchy = types.as_ref().map(|types| types.extend(&Hierarchy::default())).transpose()?;
         let task = self.task.as_deref().map(read_task).transpose()?.unwrap_or_default();
+        let wanted = wanted_setup(&task, self.seed);
         let options = InspectOptions {
             hierarchy,
             doubtful_parents: types.map(|types| types.doubtful_parents()).unwrap_or_default(),
@@ -83,6 +84,9 @@ impl CheckEnv {
         interrupt.heeded();
         let waiting = Waiting::new(quiet).for_one_thing();
         let mut world = start(&self.command, &self.timeouts, &interrupt, waiting)?;
+        if !quiet && !world.can_reset() {
+            warn_of_no_reset(self.task.as_deref().unwrap_or(Path::new("--seed")), &wanted, &world.name());
+        }
         let (inspection, ended) = match inspect(&mut world, &options) {
             Ok(inspection) => (inspection, world.close()),
             Err(BrokenOff { error, found }) => (*found, Err(error)),

@@ -1,16 +1,18 @@
 //! Environments in other programs: how they are started, for every command that acts in one.
 
+use std::path::Path;
 use std::time::Duration;
 
 use clap::ValueEnum;
 use typelift::bridge::{Bridge, Options};
-use typelift::world::WorldError;
+use typelift::world::{TaskFile, WorldError};
 
 use crate::awaited::Awaited;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::limits::Interrupt;
 use crate::quantities::parse_duration;
+use crate::style::WARNING;
 use crate::waiting::Waiting;
 
 /// How long to wait for an environment.
@@ -73,4 +75,21 @@ pub(crate) fn start(
         Err(_) if interrupt.explains_failure() => Err(Failure::new(Exit::Interrupted, "stopped")),
         Err(error) => Err(WorldError::from(error).into()),
     }
+}
+
+/// What of a setup a task, or `--seed`, asks for.
+pub(crate) fn wanted_setup(task: &TaskFile, seed: Option<u64>) -> Vec<&'static str> {
+    let wanted = [(task.scenario.is_some(), "scenario"), (task.seed.or(seed).is_some(), "seed")];
+    wanted.into_iter().filter(|(is_wanted, _)| *is_wanted).map(|(_, what)| what).collect()
+}
+
+/// Warns that an environment that cannot be reset does not set up what is wanted.
+pub(crate) fn warn_of_no_reset(task: &Path, wanted: &[&str], environment: &str) {
+    if wanted.is_empty() {
+        return;
+    }
+    let (task, wanted) = (task.display(), wanted.join(" and "));
+    anstream::eprintln!(
+        "{WARNING}warning{WARNING:#}: {task}: {environment} cannot be reset: it is taken as it is, whatever {wanted} is asked for"
+    );
 }

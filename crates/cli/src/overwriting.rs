@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::exit::Exit;
 use crate::failure::Failure;
 
 /// Something that a command may write.
@@ -20,12 +21,17 @@ pub(crate) fn numbered(file: &Path, number: u64) -> PathBuf {
     name.into()
 }
 
-/// Refuses to write over what is read. The same file under another name is the same.
+/// Refuses to write over what is read, and to a file that is called `-`. The same file under another name is the same.
 pub(crate) fn keep_inputs<'a, P: AsRef<Path>>(
     outputs: impl IntoIterator<Item = Output<'a>>,
     inputs: impl IntoIterator<Item = P>,
 ) -> Result<(), Failure> {
     let read: Vec<FileId> = inputs.into_iter().filter_map(|input| FileId::of(input.as_ref())).collect();
+    let outputs: Vec<Output> = outputs.into_iter().collect();
+    if outputs.iter().any(|output| output.file() == Path::new("-")) {
+        let message = "`-` is no file, and nothing is written to standard output in this way";
+        return Err(Failure::new(Exit::Usage, message).with_hint("Name a file; one that is called so is `./-`."));
+    }
     let mut written = outputs.into_iter().flat_map(Output::existing);
     let is_read = |path: &PathBuf| FileId::of(path).is_some_and(|id| read.contains(&id));
     match written.find(is_read) {
@@ -36,6 +42,13 @@ pub(crate) fn keep_inputs<'a, P: AsRef<Path>>(
 }
 
 impl Output<'_> {
+    /// The file that is named.
+    fn file(&self) -> &Path {
+        match self {
+            Self::File(file) | Self::Numbered { file, .. } => file,
+        }
+    }
+
     /// Its files, as far as they are there; what is not there is no input.
     pub(crate) fn existing(self) -> Vec<PathBuf> {
         let (file, most) = match self {

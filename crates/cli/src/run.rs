@@ -9,7 +9,7 @@ use std::time::Duration;
 use clap::ValueEnum;
 use typelift::agent::{BlameRule, Command, Ending, Episode, EpisodeError, Experience, Input, Options, RunError, run};
 use typelift::model::{ActionModel, Observations, State, Stop, Symbol, Task};
-use typelift::words::{AccountView, BrokenOffView, summary};
+use typelift::words::{AccountView, BrokenOffView, broken_off, summary};
 use typelift::world::{
     FileError, Parser, RecordSink, Recorder, Reset, Scene, TaskFile, TraceHeader, UnreadKey, World, read_text,
 };
@@ -17,7 +17,7 @@ use typelift_kitchen::Kitchen;
 use typelift_memory::{Memory, looks_like_memory};
 
 use crate::confirm::{Asked, Which};
-use crate::environment::{Timeouts, start};
+use crate::environment::{Timeouts, start, wanted_setup, warn_of_no_reset};
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::{ModelInput, TaskInput, task_name};
@@ -112,6 +112,8 @@ struct ToDo<'a> {
     path: &'a Path,
     what: TaskInput,
     reset: Reset,
+    /// What of a setup is asked for that an environment may be unable to give.
+    wants: Vec<&'static str>,
 }
 
 /// What there is to act with, and what is to be done.
@@ -192,6 +194,9 @@ impl Run {
             return Err(Failure::bad_input(format!("--restart: {} cannot be reset", world.name()))
                 .with_hint("Without --restart it goes on from where it is."));
         }
+        if !quiet && !world.can_reset() {
+            tasks.iter().for_each(|to_do| warn_of_no_reset(to_do.path, &to_do.wants, &world.name()));
+        }
         // Only now, so that what an earlier run wrote there is kept when this one cannot begin.
         let events = match &self.events {
             None => None,
@@ -247,7 +252,7 @@ impl Run {
 
     /// Carries out a task and tells of it; how it ended, or nothing if it was interrupted and the environment ended.
     fn carry_out(&self, to_do: ToDo<'_>, session: &mut Session<'_>) -> Result<Option<Ending>, Failure> {
-        let ToDo { path, what, reset } = to_do;
+        let ToDo { path, what, reset, .. } = to_do;
         // PDDL does not tell upper from lower case.
         let ignores_case = matches!(what, TaskInput::Problem(_));
         let (model, task) = session.pose(path, what)?;
@@ -308,9 +313,17 @@ impl Run {
         }
         let mut out = anstream::stdout().lock();
         let is_bad_input = matches!(ran, Err(RunError::Episode(EpisodeError::Goal(_))));
-        if let (true, false, Err(error)) = (self.planning.json, is_bad_input, &ran) {
-            let view = BrokenOffView::of(&name, error.to_string());
-            writeln!(out, "{}", serde_json::to_string(&view).unwrap_or_default())?;
+        if let (false, Err(error)) = (is_bad_input, &ran)
+            && let Ok(Command::Done(account)) = episode.step(Input::Stop, narrator)
+        {
+            if self.planning.json {
+                let view = BrokenOffView::of(&name, error.to_string(), &account);
+                writeln!(out, "{}", serde_json::to_string(&view).unwrap_or_default())?;
+            } else if account.proposals > 0 {
+                for line in broken_off(&name, &account, narrator.planning.as_millis(), narrator.aloud) {
+                    writeln!(out, "{}", painted(&line))?;
+                }
+            }
         }
         let account = ran.map_err(|error| Failure::from(error).in_file(path))?;
         remembered?;
@@ -386,11 +399,11 @@ impl Run {
     }
 
     fn to_do<'a>(&self, path: &'a Path, what: TaskInput) -> Result<ToDo<'a>, Failure> {
-        let reset = match &what {
-            TaskInput::File(file) => self.reset(file),
-            TaskInput::Problem(_) => self.reset_to_problem(path)?,
+        let (reset, wants) = match &what {
+            TaskInput::File(file) => (self.reset(file), wanted_setup(file, self.seed)),
+            TaskInput::Problem(_) => (self.reset_to_problem(path)?, Vec::new()),
         };
-        Ok(ToDo { path, what, reset })
+        Ok(ToDo { path, what, reset, wants })
     }
 
     fn open(&self, interrupt: &Interrupt, waiting: &Waiting) -> Result<Box<dyn World>, Failure> {

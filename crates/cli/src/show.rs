@@ -69,7 +69,7 @@ impl Show {
             return Ok(Exit::Success);
         }
         if self.predicates {
-            return list_predicates(&mut out, model, self.json);
+            return list_predicates(&mut out, model, self.json, quiet);
         }
         if self.types {
             return list_types(&mut out, &model.hierarchy, self.json);

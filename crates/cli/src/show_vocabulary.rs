@@ -1,26 +1,45 @@
 //! `typelift show --predicates` and `--types`: the words that goals and states of a model are made of.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
 
 use typelift::model::{ActionModel, Hierarchy, Symbol, TypeId};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
+use crate::style::HINT;
 
-/// A predicate a line, as `holding_holds(agent, item)`, in the order of their names.
-pub(crate) fn list_predicates(out: &mut impl Write, model: &ActionModel, json: bool) -> Result<Exit, Failure> {
+/// A predicate a line, as `holding_holds(agent, item)`, in the order of their names, with whether no action changes it.
+pub(crate) fn list_predicates(
+    out: &mut impl Write,
+    model: &ActionModel,
+    json: bool,
+    quiet: bool,
+) -> Result<Exit, Failure> {
+    let effects = model.actions.iter().flat_map(|action| &action.effects);
+    let changed: BTreeSet<&Symbol> = effects.map(|effect| &effect.literal.atom.predicate).collect();
+    let derived: BTreeSet<&Symbol> = model.axioms.iter().map(|axiom| &axiom.head.predicate).collect();
+    let is_fixed = |name: &Symbol| !changed.contains(name) && !derived.contains(name);
     let name = |ty: &TypeId| model.hierarchy.name(*ty).as_str();
     let named = |types: &[TypeId]| types.iter().map(name).collect::<Vec<_>>();
     if json {
-        let listed =
-            model.predicates.iter().map(|(name, types)| serde_json::json!({"name": name, "types": named(types)}));
+        let listed = model
+            .predicates
+            .iter()
+            .map(|(name, types)| serde_json::json!({"name": name, "types": named(types), "fixed": is_fixed(name)}));
         let listed: Vec<serde_json::Value> = listed.collect();
         writeln!(out, "{}", serde_json::to_string_pretty(&listed).unwrap_or_default())?;
         return Ok(Exit::Success);
     }
     for (predicate, types) in &model.predicates {
-        writeln!(out, "{predicate}({})", named(types).join(", "))?;
+        let fixed = if is_fixed(predicate) { "  no action changes it" } else { "" };
+        writeln!(out, "{predicate}({}){fixed}", named(types).join(", "))?;
+    }
+    out.flush()?;
+    if !quiet {
+        anstream::eprintln!(
+            "{HINT}hint{HINT:#}: a goal is a list of these over entities; before one that must not hold stands `not`"
+        );
     }
     Ok(Exit::Success)
 }

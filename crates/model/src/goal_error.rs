@@ -109,6 +109,9 @@ impl GoalErrorKind {
                 let args: Vec<String> = (1..=*expected).map(|i| format!("x{i}")).collect();
                 Some(format!("Write `{}({})`, with the names of entities.", atom.predicate, args.join(",")))
             }
+            Self::UnknownObject { object, .. } if object.as_str() == "*" => Some(
+                "A goal names each entity: `*` stands for none. Alternatives can stand in a PDDL problem.".to_owned(),
+            ),
             Self::UnknownObject { near, .. } => near.as_ref().map(|name| format!("Did you mean `{name}`?")),
             Self::TypeForObject { ty, objects } => Some(match objects.as_slice() {
                 [] => format!("The state has no entity of type `{ty}`."),
@@ -175,8 +178,10 @@ fn near_predicates(atom: &GroundAtom, predicates: &ArgumentTypes) -> Vec<Symbol>
     if !of_values.is_empty() {
         return of_values;
     }
-    let near = nearest(atom.predicate.as_str(), predicates.keys()).or_else(|| made_from(atom, predicates));
-    near.cloned().into_iter().collect()
+    match nearest(atom.predicate.as_str(), predicates.keys()).or_else(|| made_from(atom, predicates)) {
+        Some(near) => vec![near.clone()],
+        None => of_value(atom, predicates),
+    }
 }
 
 /// A predicate that is made from what a snapshot calls so: the relation `holding` gives `holding_holds`, the attribute
@@ -188,6 +193,16 @@ fn made_from<'a>(atom: &GroundAtom, predicates: &'a ArgumentTypes) -> Option<&'a
     };
     let made = predicates.iter().filter(|(name, _)| is_made_from(name));
     made.min_by_key(|(_, types)| types.len() != atom.arity()).map(|(name, _)| name)
+}
+
+/// The predicates of this value, of whatever attribute, with as many arguments: `battery_Full` for `full`.
+fn of_value(atom: &GroundAtom, predicates: &ArgumentTypes) -> Vec<Symbol> {
+    let is_of_value = |name: &Symbol| {
+        let value = name.as_str().rsplit_once('_').map(|(_, value)| value);
+        value.is_some_and(|value| value.eq_ignore_ascii_case(atom.predicate.as_str()))
+    };
+    let alike = predicates.iter().filter(|(name, types)| types.len() == atom.arity() && is_of_value(name));
+    alike.map(|(name, _)| name.clone()).collect()
 }
 
 /// The predicates that begin as this one does up to its last `_`, and have as many arguments: `battery_Full` beside
@@ -242,6 +257,12 @@ mod tests {
                 "battery_Empty(truck_1)",
                 "the model has no predicate `battery_Empty`",
                 "Did you mean `battery_Full` or `battery_Low`?",
+            ),
+            ("full(truck_1)", "the model has no predicate `full`", "Did you mean `battery_Full`?"),
+            (
+                "on_holds(drum_1,*)",
+                "there is no `*` in the state",
+                "A goal names each entity: `*` stands for none. Alternatives can stand in a PDDL problem.",
             ),
             ("broken(truck_1)", "the model has no predicate `broken`", ""),
             (

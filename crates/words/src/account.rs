@@ -165,7 +165,7 @@ impl FailureView {
     }
 }
 
-/// What there is of a task whose environment or planner failed: no account.
+/// What there is of a task whose environment or planner failed: what was done until then.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct BrokenOffView {
@@ -177,12 +177,30 @@ pub struct BrokenOffView {
     pub ending: &'static str,
     /// What failed, in words.
     pub why: String,
+    /// Plans proposed.
+    pub proposals: u64,
+    /// Actions executed, retries included.
+    pub actions: u64,
+    /// What failed before, in order.
+    pub failures: Vec<FailureView>,
+    /// Where it was broken off, if a plan was proposed or being carried out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stopped_at: Option<StoppedAt>,
 }
 
 impl BrokenOffView {
-    /// The view of a task that was broken off.
-    pub fn of(task: &str, why: String) -> Self {
-        Self { task: task.to_owned(), solved: false, ending: "broken_off", why }
+    /// The view of a task that was broken off, of which there is this account until then.
+    pub fn of(task: &str, why: String, account: &Account) -> Self {
+        Self {
+            task: task.to_owned(),
+            solved: false,
+            ending: "broken_off",
+            why,
+            proposals: account.proposals,
+            actions: account.actions,
+            failures: account.failures.iter().map(FailureView::of).collect(),
+            stopped_at: account.stopped_at.clone(),
+        }
     }
 }
 
@@ -201,14 +219,7 @@ fn why_not(account: &Account, told: &[Failure]) -> Option<String> {
         Ending::ProposalLimit(n) => format!("gave up after {}", count(*n, "proposal")),
         Ending::Stopped(stop) => match &account.stopped_at {
             None => stop.to_string(),
-            Some(StoppedAt { proposal, step, steps, call, begun }) => {
-                let place = format!("step {step} of {steps} of proposal {proposal}, {call}");
-                if *begun {
-                    format!("{stop} during {place}: what came of it was not observed")
-                } else {
-                    format!("{stop} before {place}")
-                }
-            }
+            Some(stopped_at) => format!("{stop} {}", place(stopped_at)),
         },
     })
 }
@@ -218,6 +229,15 @@ fn all_avoided(all: &[Avoided], told: &[Failure]) -> Vec<String> {
     let mut said = BTreeSet::new();
     let lines = all.iter().map(|avoiding| avoided(avoiding, told));
     lines.filter(|line| said.insert(line.clone())).collect()
+}
+
+/// Where an episode was stopped.
+fn place(StoppedAt { proposal, step, steps, call, begun }: &StoppedAt) -> String {
+    let step = format!("step {step} of {steps} of proposal {proposal}, {call}");
+    match begun {
+        true => format!("during {step}: what came of it was not observed"),
+        false => format!("before {step}"),
+    }
 }
 
 /// What is excluded after a failure, or by a person's word, and after which, unless that is told already.
@@ -245,20 +265,7 @@ pub(crate) fn although(reported: Verdict) -> String {
 /// why it is not solved.
 pub fn summary(task: &str, account: &Account, planning_ms: u128, told: bool) -> Vec<Text> {
     let mut lines = vec![headline(task, account, planning_ms)];
-    for failure in account.failures.iter().filter(|_| !told) {
-        let place = format!("proposal {}, step {}", failure.proposal, failure.step);
-        let Failure { reason, missed, added, deleted, .. } = failure;
-        let reason = reason.as_ref().map(|reason| format!(" ({reason})")).unwrap_or_default();
-        let what = format!("  {}: {}{reason}", failure.call, failure.result.in_words(missed, added, deleted));
-        lines.push(Text::new().plain("  ").with(Role::Aside, place).plain(what));
-        lines.extend(failure.suspects.iter().map(|suspect| Text::new().plain(format!("    excluded {suspect}"))));
-    }
-    for SeenDone { proposal, step, call, reported, reason } in account.seen_done.iter().filter(|_| !told) {
-        let place = format!("proposal {proposal}, step {step}");
-        let reason = reason.as_ref().map(|reason| format!(" ({reason})")).unwrap_or_default();
-        let what = format!("  {call}: done, {}{reason}", although(*reported));
-        lines.push(Text::new().plain("  ").with(Role::Aside, place).plain(what));
-    }
+    lines.extend(failures(account, told));
     if account.resorts.lifted() {
         lines.push(Text::new().plain("  exclusions were lifted, since nothing else was left"));
     }
@@ -273,12 +280,43 @@ pub fn summary(task: &str, account: &Account, planning_ms: u128, told: bool) -> 
     lines
 }
 
+/// What there is of a task that was broken off, in lines: what was done, what failed, unless that was `told` as it happened, and
+/// where it was broken off.
+pub fn broken_off(task: &str, account: &Account, planning_ms: u128, told: bool) -> Vec<Text> {
+    let head = Text::new().with(Role::Heading, task).plain("  ").with(Role::Bad, "broken off");
+    let mut lines = vec![head.plain(format!(": {}", counted(account, planning_ms)))];
+    lines.extend(failures(account, told));
+    lines.extend(account.stopped_at.iter().map(|at| Text::new().plain(format!("  {}", place(at)))));
+    lines
+}
+
+/// What failed, and what was seen to be done although it was reported to fail, unless that was `told`.
+fn failures(account: &Account, told: bool) -> Vec<Text> {
+    let mut lines = Vec::new();
+    for failure in account.failures.iter().filter(|_| !told) {
+        let place = format!("proposal {}, step {}", failure.proposal, failure.step);
+        let Failure { reason, missed, added, deleted, .. } = failure;
+        let reason = reason.as_ref().map(|reason| format!(" ({reason})")).unwrap_or_default();
+        let what = format!("  {}: {}{reason}", failure.call, failure.result.in_words(missed, added, deleted));
+        lines.push(Text::new().plain("  ").with(Role::Aside, place).plain(what));
+        lines.extend(failure.suspects.iter().map(|suspect| Text::new().plain(format!("    excluded {suspect}"))));
+    }
+    for SeenDone { proposal, step, call, reported, reason } in account.seen_done.iter().filter(|_| !told) {
+        let place = format!("proposal {proposal}, step {step}");
+        let reason = reason.as_ref().map(|reason| format!(" ({reason})")).unwrap_or_default();
+        let what = format!("  {call}: done, {}{reason}", although(*reported));
+        lines.push(Text::new().plain("  ").with(Role::Aside, place).plain(what));
+    }
+    lines
+}
+
+fn counted(account: &Account, planning_ms: u128) -> String {
+    let (proposals, actions) = (count(account.proposals, "proposal"), count(account.actions, "action"));
+    format!("{proposals}, {actions} executed, planned in {planning_ms} ms")
+}
+
 fn headline(task: &str, account: &Account, planning_ms: u128) -> Text {
-    let counted = format!(
-        "{}, {} executed, planned in {planning_ms} ms",
-        count(account.proposals, "proposal"),
-        count(account.actions, "action")
-    );
+    let counted = counted(account, planning_ms);
     let line = Text::new().with(Role::Heading, task).plain("  ");
     match &account.plan {
         Some(plan) if account.solved() && account.proposals == 0 && plan.is_empty() => {

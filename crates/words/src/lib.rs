@@ -32,7 +32,7 @@ mod text;
 mod why;
 mod wire;
 
-pub use account::{AccountView, BrokenOffView, ExclusionView, FailureView, summary};
+pub use account::{AccountView, BrokenOffView, ExclusionView, FailureView, broken_off, summary};
 pub use action::{Description, Row, describe_action, describe_axiom, individual_name};
 pub use answer::{AnswerView, ending, why_none};
 pub use difference::{

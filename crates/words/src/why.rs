@@ -39,6 +39,9 @@ pub struct WhyView {
     pub action: Option<Symbol>,
     /// What speaks against it, the greatest share first.
     pub suspects: Vec<Suspect>,
+    /// Why the model alone does not allow it: wrong types, or preconditions that do not hold in the state.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub unmet: Vec<String>,
     /// Whether nothing is known of such a call: of its name, its number of arguments, or the type of one of them.
     pub unknown: bool,
 }
@@ -46,10 +49,13 @@ pub struct WhyView {
 impl WhyView {
     /// The view of a judgement.
     pub fn new(call: GroundCall, judgement: Judgement) -> Self {
-        let Judgement { p, action, suspects } = judgement;
-        Self { call, p: rounded(p), unknown: action.is_none(), action, suspects }
+        let Judgement { p, action, suspects, unmet } = judgement;
+        Self { call, p: rounded(p), unknown: action.is_none(), action, suspects, unmet }
     }
 }
+
+/// What is as likely reads as 1.00.
+const ALMOST: f64 = 0.995;
 
 /// Four digits are more than is known.
 fn rounded(p: f64) -> f64 {
@@ -63,13 +69,23 @@ pub fn why_lines(view: &WhyView) -> Vec<Text> {
     };
     let role = if view.p < 0.5 { Role::Bad } else { Role::Good };
     let head = Text::new().plain(format!("{}: ", view.call));
-    let mut lines = vec![head.with(role, format!("works with {:.2}", view.p)).plain(format!(", by {action}"))];
+    let is_almost_sure = view.p >= ALMOST && !view.suspects.is_empty();
+    let works = match is_almost_sure {
+        true => "works with more than 0.99".to_owned(),
+        false => format!("works with {:.2}", view.p),
+    };
+    let mut lines = vec![head.with(role, works).plain(format!(", by {action}"))];
+    let unmet = view.unmet.iter();
+    lines.extend(
+        unmet.map(|unmet| Text::new().with(Role::Warning, "  not as the model is").plain(format!(": {unmet}"))),
+    );
     if !view.suspects.is_empty() {
-        lines.push(Text::new().with(Role::Aside, "  of what speaks against it:"));
+        let little = if is_almost_sure { "the little that" } else { "what" };
+        lines.push(Text::new().with(Role::Aside, format!("  of {little} speaks against it:")));
     }
     let against = view.suspects.iter().map(|suspect| {
         let what = match suspect.kind {
-            Culprit::Type => format!("{} may not do there", suspect.what),
+            Culprit::Type => format!("{} may not be accepted in its place", suspect.what),
             Culprit::Pair => format!("{} may not go together", suspect.what),
             Culprit::Object => format!("{} may be out of order", suspect.what),
             Culprit::Literal => format!("{} does not hold, and may be needed", suspect.what),

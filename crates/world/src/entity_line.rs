@@ -132,6 +132,17 @@ pub(crate) struct UnreadKeys {
 }
 
 impl UnreadKeys {
+    /// Notes those of a line, of which these are read, each key where it is met first.
+    pub(crate) fn note_keys(&mut self, file: &Path, line: usize, keys: &[Symbol], read: &[&str]) {
+        for key in keys.iter().filter(|key| !read.contains(&key.as_str())) {
+            let near = nearest(key.as_str(), &read.iter().copied().map(Symbol::new).collect::<Vec<_>>()).cloned();
+            if let Some(near) = near.filter(|_| self.seen.insert(key.clone())) {
+                let warning = FileError::at_line(file, line, format!("`{key}` is not read"));
+                self.warnings.push(warning.with_hint(format!("Did you mean `{near}`?")));
+            }
+        }
+    }
+
     /// Notes those of entities, each key where it is met first.
     pub(crate) fn note(&mut self, file: &Path, line: Option<usize>, entities: &[EntityLine]) {
         for UnreadKey { entity, key, near } in unread_keys(entities, &mut self.seen) {

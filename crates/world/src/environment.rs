@@ -68,6 +68,22 @@ pub enum WorldError {
     },
 }
 
+impl WorldError {
+    /// The same error, come after something that explains it.
+    #[must_use]
+    pub fn after(self, what: &str) -> Self {
+        let told = |account: String| format!("{what}; after that, {account}");
+        match self {
+            Self::NotSetUp { .. } => self,
+            Self::CannotSetUp { account } => Self::CannotSetUp { account: told(account) },
+            Self::Gone { account } => Self::Gone { account: told(account) },
+            Self::TimedOut { account } => Self::TimedOut { account: told(account) },
+            Self::Misspoke { account } => Self::Misspoke { account: told(account) },
+            Self::Failed { account } => Self::Failed { account: told(account) },
+        }
+    }
+}
+
 /// The instance of the world that this one is in after this reset: as it says itself. Else a world that cannot be reset
 /// stays one instance, and the same scenario and seed of one are one instance.
 pub fn instance_of(world: &dyn World, reset: &Reset) -> Symbol {

@@ -92,10 +92,49 @@ pub(crate) fn hint(error: &serde_json::Error, text: &str) -> Option<String> {
         let listed = serde_json::to_string(&[goal]).ok()?;
         return Some(format!("A goal is a list, even of one atom: write {listed}."));
     }
-    let Goals { goal } = serde_json::from_str(text).ok()?;
+    let Ok(Goals { goal }) = serde_json::from_str(text) else { return as_text(text) };
     let (text, wrong) = goal.iter().find_map(|text| Some((text, literal(text).err()?)))?;
     let is_about_it = error.to_string().starts_with(&wrong.to_string());
     is_about_it.then(|| OtherNotation::of(text)).flatten().map(|other| other.hint())
+}
+
+/// How to write a goal that is an object, or a list of lists or objects: `{"on":["a","b"]}` and `["on","a","b"]` are `on(a,b)`.
+fn as_text(text: &str) -> Option<String> {
+    #[derive(serde::Deserialize)]
+    struct AnyGoal {
+        goal: serde_json::Value,
+    }
+    let AnyGoal { goal } = serde_json::from_str(text).ok()?;
+    let atoms = match goal {
+        serde_json::Value::Array(atoms) => atoms.iter().map(written).collect::<Option<Vec<_>>>()?,
+        object => vec![written(&object)?],
+    };
+    let listed = serde_json::to_string(&atoms.concat()).ok()?;
+    Some(format!("A goal is a list of texts: write {listed}."))
+}
+
+/// The atoms that a value stands for, if it is one that others write atoms with.
+fn written(value: &serde_json::Value) -> Option<Vec<String>> {
+    let atom = |predicate: &str, args: &[serde_json::Value]| {
+        let args = args.iter().map(serde_json::Value::as_str).collect::<Option<Vec<_>>>()?;
+        let text = format!("{predicate}({})", args.join(","));
+        literal(&text).is_ok().then_some(text)
+    };
+    match value {
+        serde_json::Value::String(text) => literal(text).is_ok().then(|| vec![text.clone()]),
+        serde_json::Value::Array(words) => {
+            let (predicate, args) = words.split_first()?;
+            Some(vec![atom(predicate.as_str()?, args)?])
+        }
+        serde_json::Value::Object(pairs) => {
+            let atoms = pairs.iter().map(|(predicate, args)| match args {
+                serde_json::Value::Array(args) => atom(predicate, args),
+                one => atom(predicate, std::slice::from_ref(one)),
+            });
+            atoms.collect()
+        }
+        _ => None,
+    }
 }
 
 /// Nothing is asked for: what a header says that has no goal.

@@ -5,8 +5,8 @@ use std::fmt;
 use std::marker::PhantomData;
 
 use serde::de::{Deserialize, Deserializer, Error, IgnoredAny, MapAccess, Visitor};
-use typelift_model::Symbol;
 pub(crate) use typelift_model::json_message as message;
+use typelift_model::{Symbol, nearest};
 
 use crate::goal_literals;
 
@@ -19,8 +19,40 @@ pub(crate) fn hint(error: &serde_json::Error, text: &str) -> Option<String> {
         |back| at(back).is_some_and(|rest| ["NaN", "Infinity", "-Infinity"].iter().any(|n| rest.starts_with(n)));
     match starts(1) || starts(2) {
         true => Some("JSON has no NaN and no Infinity: leave the attribute out.".to_owned()),
-        false => goal_literals::hint(error, text),
+        false => missing_key(error, text).or_else(|| goal_literals::hint(error, text)),
     }
+}
+
+/// Which key of an object that lacks one is nearly that one.
+fn missing_key(error: &serde_json::Error, text: &str) -> Option<String> {
+    let told = error.to_string();
+    let missing = told.strip_prefix("missing field `")?.split('`').next()?;
+    let lines = text.split_inclusive('\n').take(error.line().checked_sub(1)?);
+    let end = lines.map(str::len).sum::<usize>() + error.column();
+    // The column is that of the bracket that closes the object, which must still be open to be named.
+    let open = open_at(text.get(..end.checked_sub(1)?)?);
+    let mut value = &serde_json::from_str::<serde_json::Value>(text).ok()?;
+    for level in &open[..open.len().checked_sub(1)?] {
+        value = match level {
+            Open::Object(key) => value.get((*key)?)?,
+            Open::List(index) => value.get(index)?,
+        };
+    }
+    let keys: Vec<Symbol> = value.as_object()?.keys().map(|key| Symbol::new(key)).collect();
+    near_key(missing, &keys)
+}
+
+/// That a key that is not read may be meant to be this one.
+pub(crate) fn near_key(wanted: &str, keys: &[Symbol]) -> Option<String> {
+    let near = nearest(wanted, keys)?;
+    Some(format!("`{near}` is not read: is it meant to be `{wanted}`?"))
+}
+
+/// Which key of the object under a key of this one is nearly this.
+pub(crate) fn near_key_of(outer: &str, text: &str, wanted: &str) -> Option<String> {
+    let whole: serde_json::Value = serde_json::from_str(text).ok()?;
+    let keys: Vec<Symbol> = whole.get(outer)?.as_object()?.keys().map(|key| Symbol::new(key)).collect();
+    near_key(wanted, &keys)
 }
 
 /// The keys that lead to an error's place in this text, as in `state.entities[3]`; none where it is about the whole, or

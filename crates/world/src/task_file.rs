@@ -107,7 +107,10 @@ impl TaskFile {
             unread.note(name, None, state.entities());
         }
         warnings.extend(unread.warnings);
-        let state = state.map(SceneLine::scene).transpose().map_err(|what| FileError::new(name, what))?;
+        let state = state
+            .map(SceneLine::scene)
+            .transpose()
+            .map_err(|what| FileError::new(name, what).with_hint(json::near_key_of("state", text, "entities")))?;
         Ok(Self { goal, state, scenario, seed, warnings })
     }
 

@@ -211,9 +211,14 @@ impl<R: BufRead> TraceReader<R> {
         match (body.state.take(), body.action()) {
             (Some(state), None) => {
                 self.unread.note(&path, Some(number), state.entities());
-                Ok(Some(Body::State(state.scene().map_err(error)?)))
+                let hint = || json::near_key_of("state", line.text, "entities");
+                Ok(Some(Body::State(state.scene().map_err(|what| error(what).with_hint(hint()))?)))
             }
-            (None, Some(action)) => Ok(Some(Body::Action(action))),
+            (None, Some(action)) => {
+                let keys = json::keys(line.text).unwrap_or_default();
+                self.unread.note_keys(&path, number, &keys, &ACTION_KEYS);
+                Ok(Some(Body::Action(action)))
+            }
             (None, None) => Err(error("this line has neither a `state` nor an `action`")),
             (Some(_), Some(_)) => Err(error("this line has both a `state` and an `action`")),
         }
@@ -232,6 +237,9 @@ impl<R: BufRead> Iterator for TraceReader<R> {
         item
     }
 }
+
+/// The keys of a line with an action.
+const ACTION_KEYS: [&str; 6] = ["action", "executed", "reason", "t", "expected", "verdict"];
 
 const AFTER_EVERY_ACTION: &str = "Record the state after every action.";
 

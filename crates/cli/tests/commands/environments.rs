@@ -137,3 +137,87 @@ fn a_state_that_cannot_be_read_comes_with_the_hint_for_what_is_wrong_with_it() {
         assert_eq!(ended.err.contains("--types"), entities.contains("robot"), "{ended}");
     }
 }
+
+/// Two lamps, the second of which the environment does not survive.
+fn two_lamps(then: &str, hello: &str) -> Folder {
+    let folder = Folder::new();
+    let state = |one: &str, two: &str| {
+        let lamp =
+            |id: &str, light: &str| format!(r#"{{"id":"{id}","type":"lamp","attributes":{{"light":"{light}"}}}}"#);
+        format!(r#"{{"entities":[{},{}]}}"#, lamp("one", one), lamp("two", two))
+    };
+    folder.write("types.json", r#"{"lamp": "object"}"#);
+    let (before, after) = (state("Off", "Off"), state("On", "Off"));
+    let press = r#"{"action":{"name":"press","args":["one"]}}"#;
+    folder.write(
+        "lamps.jsonl",
+        format!("{{\"format\":\"trace/1\"}}\n{{\"state\":{before}}}\n{press}\n{{\"state\":{after}}}\n"),
+    );
+    folder.run("learn lamps.jsonl --types types.json -o model.json -q").succeeds();
+    folder.write(
+        "task.json",
+        r#"{"format":"task/1","goal":["light_On(one)","light_On(two)"],"seed":3,"scenario":"dusk"}"#,
+    );
+    folder.write("before.json", before);
+    folder.write("after.json", after);
+    folder.write(
+        "lamps.sh",
+        format!(
+            r#"n=0; acts=0; state=before.json
+while read -r line; do
+  n=$((n+1))
+  case "$line" in
+    *'"hello"'*) echo "{{\"id\":$n,\"ok\":true,\"name\":\"lamps\",\"reset\":{hello}}}"; continue;;
+    *'"close"'*) echo "{{\"id\":$n,\"ok\":true}}"; continue;;
+    *'"act"'*) acts=$((acts+1)); [ $acts = 2 ] && {then}; state=after.json;;
+  esac
+  echo "{{\"id\":$n,\"ok\":true,\"executed\":true,\"state\":$(cat $state)}}"
+done
+"#
+        ),
+    );
+    folder
+}
+
+#[test]
+fn what_was_done_before_an_environment_ended_is_told() {
+    let folder = two_lamps("exit 3", "true");
+    let run = "run model.json task.json --env 'sh lamps.sh'";
+    let ended = folder.run(run);
+    assert_eq!(
+        (ended.code, ended.out.as_str()),
+        (
+            35,
+            "task  broken off: 1 proposal, 1 action executed, planned in N ms\n  \
+             during step 2 of 2 of proposal 1, press(two): what came of it was not observed\n"
+        ),
+        "{ended}"
+    );
+    let ended = folder.run(&format!("{run} --json -q"));
+    let account: serde_json::Value = serde_json::from_str(&ended.out).expect("one object");
+    assert_eq!(account["ending"], "broken_off");
+    assert_eq!((&account["proposals"], &account["actions"]), (&1.into(), &1.into()), "{ended}");
+    assert_eq!((&account["stopped_at"]["step"], &account["stopped_at"]["begun"]), (&2.into(), &true.into()), "{ended}");
+}
+
+#[test]
+fn an_action_that_hangs_is_named_where_nothing_can_be_observed_after_it() {
+    let folder = two_lamps("sleep 3", "true");
+    let ended = folder.run("run model.json task.json --env 'sh lamps.sh' --env-timeout act=300ms,observe=300ms -q");
+    let said = "press(two) was not finished in time; after that, environment lamps: it did not answer `observe`";
+    assert!(ended.code == 35 && ended.err.contains(said), "{ended}");
+}
+
+#[test]
+fn what_an_environment_that_cannot_be_reset_ignores_is_said() {
+    let folder = two_lamps("exit 3", "false");
+    let warning = "lamps cannot be reset: it is taken as it is, whatever scenario and seed is asked for\n";
+    for command in ["run model.json task.json --env 'sh lamps.sh'", "check-env 'sh lamps.sh' --task task.json"] {
+        let ended = folder.run(command);
+        assert!(ended.err.contains(&format!("warning: task.json: {warning}")), "{command}: {ended}");
+        assert!(!folder.run(&format!("{command} -q")).err.contains("warning"));
+    }
+    folder.write("plain.json", r#"{"format":"task/1","goal":["light_On(one)"]}"#);
+    let ended = folder.run("run model.json plain.json --env 'sh lamps.sh'");
+    assert!(ended.code == 0 && !ended.err.contains("warning"), "{ended}");
+}

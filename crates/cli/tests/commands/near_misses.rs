@@ -264,3 +264,55 @@ fn what_happened_instead_is_told() {
     let json = folder.run("run cups.pddl wash.json --env 'sh env.sh' --retries 0 --json");
     assert!(json.out.contains(r#""added":["wet(cup_1)"]"#), "{json}");
 }
+
+#[test]
+fn goals_in_lists_and_objects_are_answered_with_their_text() {
+    let folder = Folder::kitchen();
+    for goal in [
+        json!([["on_holds", "lettuce_1", "plate_1"]]),
+        json!([{ "on_holds": ["lettuce_1", "plate_1"] }]),
+        json!({ "on_holds": ["lettuce_1", "plate_1"] }),
+    ] {
+        folder.changed("K/tasks/T1.1.json", "task.json", |task| task["goal"] = goal.clone());
+        let refused = folder.refuses(31, "plan kitchen.json task.json");
+        let hint = "\nhint: A goal is a list of texts: write [\"on_holds(lettuce_1,plate_1)\"].\n";
+        assert!(refused.err.ends_with(hint), "{goal}: {refused}");
+    }
+}
+
+/// Left out, a failure would be learned from as a success.
+#[test]
+fn keys_of_actions_and_states_that_are_misspelled() {
+    let folder = Folder::new();
+    folder.write("types.json", r#"{"lamp": "thing"}"#);
+    let state =
+        |lit: bool| format!(r#"{{"state":{{"entities":[{{"id":"l","type":"lamp","attributes":{{"lit":{lit}}}}}]}}}}"#);
+    let trace = |action: &str, first: &str| format!("{{\"format\":\"trace/1\"}}\n{first}\n{action}\n{}\n", state(true));
+    let press = r#"{"action":{"name":"press","args":["l"]}"#;
+    folder.write("a.jsonl", trace(&format!(r#"{press},"execute":false,"camera":3}}"#), &state(false)));
+    let learned = folder.run("learn a.jsonl --types types.json -o m.json");
+    let warning = "warning: a.jsonl:3: `execute` is not read\nhint: Did you mean `executed`?\n";
+    assert!(learned.err.contains(warning) && !learned.err.contains("camera"), "{learned}");
+    for (wrong, right, told) in [
+        ("entitys", "entities", "`entitys` is not read: is it meant to be `entities`?"),
+        ("typ", "type", "`typ` is not read: is it meant to be `type`?"),
+    ] {
+        let first = state(false).replace(&format!("\"{right}\""), &format!("\"{wrong}\""));
+        folder.write("b.jsonl", trace(&format!("{press}}}"), &first));
+        let refused = folder.refuses(31, "learn b.jsonl --types types.json -o m.json");
+        assert!(refused.err.contains(&format!("\nhint: {told}\n")), "{refused}");
+        let task = format!(r#"{{"format":"task/1","goal":["lit(l)"],{}"#, first.trim_start_matches('{'));
+        folder.write("task.json", task);
+        let refused = folder.run("plan m.json task.json");
+        assert!(refused.err.contains(&format!("\nhint: {told}\n")), "{refused}");
+    }
+}
+
+#[test]
+fn a_dash_is_no_file_to_write_to() {
+    let folder = Folder::kitchen();
+    for command in ["learn K/demos --types K/types.pddl -o -", "plan kitchen.json K/tasks/T1.1.json -o -"] {
+        let refused = folder.refuses(36, command);
+        assert!(refused.err.contains("`-` is no file, and nothing is written to standard output"), "{refused}");
+    }
+}

@@ -207,7 +207,7 @@ fn what_is_shown_is_there_for_programs() {
     assert_eq!(folder.run("show kitchen.json --json --pddl").code, 36);
     let predicates = shown("--predicates");
     assert!(
-        predicates.contains(&serde_json::json!({"name": "holding_holds", "types": ["agent", "food"]})),
+        predicates.contains(&serde_json::json!({"name": "holding_holds", "types": ["agent", "food"], "fixed": false})),
         "{predicates:?}"
     );
     let types = shown("--types");
