@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use rusqlite::ErrorCode;
 use thiserror::Error;
 use typelift_learn::LearnError;
-use typelift_model::{MergeError, ModelFileError, SourceId};
+use typelift_model::{MergeError, ModelFileError, SourceId, Symbol};
 use typelift_world::FileError;
 
 use crate::version::VERSION;
@@ -81,6 +81,9 @@ pub enum MemoryErrorKind {
     /// Nothing was learned from this source, or it was taken back already.
     #[error("nothing is known from {}", .0.short())]
     NotKnown(SourceId),
+    /// Nothing was done with an object of this name, or said of it.
+    #[error("nothing was done with {0} that is known, and nothing was said of it")]
+    NoSuchObject(Symbol),
     /// This entry is nothing that a person said, or it was taken back already.
     #[error("entry {0} is nothing that a person said, or is taken back already")]
     NotSaid(i64),

@@ -56,13 +56,16 @@ impl Fold {
     /// Adds what was written since, and gives the sum with the episodes that have not ended. `basis` says how scenes are
     /// read. In time of what was written since, and of the episodes that never ended.
     pub(crate) fn go_on(&mut self, connection: &Connection, basis: &LearnedModel) -> Result<Sum, MemoryErrorKind> {
+        if forgets_in_part(connection, self.up_to)? {
+            *self = Self::default();
+        }
         let from = self.up_to;
         let last = log::last(connection)?;
         let mut unread = Vec::new();
         let taken_back = taken_back(connection)?;
         // First, since what was seen again after it was taken back counts again.
         for entry in list(connection, Wanted::After(Kind::Forgotten, from))? {
-            let log::Forgotten { source, entries } = entry.content()?;
+            let log::Forgotten { source, entries, .. } = entry.content()?;
             if let Some(source) = source.filter(|_| entries.iter().any(|entry| *entry <= from)) {
                 // What never was compact is not compact now.
                 let _ = self.evidence.take_out(source);
@@ -107,6 +110,17 @@ impl Fold {
     }
 }
 
+/// Whether something that was summed up already was taken back later, and may be known from elsewhere, too.
+fn forgets_in_part(connection: &Connection, up_to: i64) -> Result<bool, MemoryErrorKind> {
+    for entry in list(connection, Wanted::After(Kind::Forgotten, up_to))? {
+        let log::Forgotten { object, entries, .. } = entry.content()?;
+        if object.is_some() && entries.iter().any(|entry| *entry <= up_to) {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
+
 /// The evidence of a model, without what was taken back of it.
 fn model_evidence(entry: &log::Entry, taken_back: &BTreeSet<(i64, SourceId)>) -> Result<Evidence, MemoryErrorKind> {
     let log::Evidence { model, .. } = entry.content()?;
@@ -121,7 +135,7 @@ fn model_evidence(entry: &log::Entry, taken_back: &BTreeSet<(i64, SourceId)>) ->
 pub(crate) fn taken_back(connection: &Connection) -> Result<BTreeSet<(i64, SourceId)>, MemoryErrorKind> {
     let mut all = BTreeSet::new();
     for entry in list(connection, Wanted::Of(Kind::Forgotten))? {
-        let log::Forgotten { source, entries } = entry.content()?;
+        let log::Forgotten { source, entries, .. } = entry.content()?;
         all.extend(source.into_iter().flat_map(|source| entries.iter().map(move |number| (*number, source))));
     }
     Ok(all)

@@ -117,6 +117,9 @@ pub(crate) struct Forgotten {
     /// The entries from which it was known: [`Evidence`], or the beginning of an episode. Or those that are taken back
     /// themselves.
     pub(crate) entries: Vec<i64>,
+    /// The object because of which it is taken back; then the same source may still be known from other entries.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) object: Option<Symbol>,
 }
 
 /// An entry as it is kept.

@@ -68,6 +68,8 @@ pub enum What {
         source: Option<SourceId>,
         /// The entries from which it was known, or that are taken back themselves.
         entries: Vec<i64>,
+        /// The object because of which it was.
+        object: Option<Symbol>,
     },
 }
 
@@ -104,8 +106,8 @@ pub(crate) fn told(entry: Entry) -> Result<Logged, MemoryErrorKind> {
             What::Said { task, said: Box::new(said) }
         }
         Kind::Forgotten => {
-            let log::Forgotten { source, entries } = entry.content()?;
-            What::Forgotten { source, entries }
+            let log::Forgotten { source, entries, object } = entry.content()?;
+            What::Forgotten { source, entries, object }
         }
     };
     Ok(Logged { number: entry.number, written: entry.written, episode: entry.episode, what })

@@ -14,6 +14,7 @@ use crate::fold::{Fold, PROGRAM, Sum, Unread, kept_fold, taken_back, under_way};
 use crate::format::{self, Access};
 use crate::log::{self, Kind, Wanted, append, list, trace_text};
 use crate::logged::{Logged, logged};
+use crate::object::{OfObject, forget_object};
 use crate::recent::{PastEpisode, recent};
 use crate::words::words;
 
@@ -234,7 +235,7 @@ impl Memory {
         if entries.is_empty() {
             return Err(MemoryErrorKind::NotKnown(source));
         }
-        append(&transaction, Kind::Forgotten, None, &log::Forgotten { source: Some(source), entries })?;
+        append(&transaction, Kind::Forgotten, None, &log::Forgotten { source: Some(source), entries, object: None })?;
         transaction.commit()?;
         self.learn()
     }
@@ -257,10 +258,32 @@ impl Memory {
             if words(&transaction)?.iter().all(|(number, _)| *number != entry) {
                 return Err(MemoryErrorKind::NotSaid(entry));
             }
-            append(&transaction, Kind::Forgotten, None, &log::Forgotten { source: None, entries: vec![entry] })?;
+            append(
+                &transaction,
+                Kind::Forgotten,
+                None,
+                &log::Forgotten { source: None, entries: vec![entry], object: None },
+            )?;
             Ok(transaction.commit()?)
         };
         take_back().map_err(|kind| kind.of(&self.file))
+    }
+
+    /// Takes an object back: each episode in which something was done with it, or was meant to be, and each word about such a
+    /// step; in this instance of the world, or in all. What models brought does not say which objects it was about, and stays.
+    /// In time of the log.
+    ///
+    /// # Errors
+    /// [`MemoryError`]: of kind [`NoSuchObject`](MemoryErrorKind::NoSuchObject) if there is nothing to take back.
+    pub fn forget_object(&mut self, object: &Symbol, instance: Option<&Symbol>) -> Result<OfObject, MemoryError> {
+        let mut forget = || {
+            let transaction = self.connection.transaction_with_behavior(TransactionBehavior::Immediate)?;
+            let found = forget_object(&transaction, object, instance)?;
+            transaction.commit()?;
+            self.learn()?;
+            Ok(found)
+        };
+        forget().map_err(|kind: MemoryErrorKind| kind.of(&self.file))
     }
 
     /// The episodes that were not taken back, as the traces that they are, each with its name and its text, in order.

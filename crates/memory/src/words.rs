@@ -20,7 +20,7 @@ pub(crate) fn words(connection: &Connection) -> Result<Vec<(i64, Said)>, MemoryE
 fn taken_back(connection: &Connection) -> Result<BTreeSet<i64>, MemoryErrorKind> {
     let mut all = BTreeSet::new();
     for entry in list(connection, Wanted::Of(Kind::Forgotten))? {
-        let log::Forgotten { source, entries } = entry.content()?;
+        let log::Forgotten { source, entries, .. } = entry.content()?;
         all.extend(entries.into_iter().filter(|_| source.is_none()));
     }
     Ok(all)

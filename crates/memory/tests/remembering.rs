@@ -83,6 +83,36 @@ fn what_is_forgotten_has_never_been() {
 }
 
 #[test]
+fn what_was_done_with_an_object_that_is_forgotten_has_never_been() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut memory = empty(folder.path(), "m");
+    let trace = record(folder.path(), "shown", "lamp", 3);
+    memory.add_model(&learned(std::slice::from_ref(&trace)), "m").expect("added");
+    let before = bytes(&memory);
+    remember(&mut memory, "go", "candle", 2);
+    let other = Memory::open(memory.file(), Access::Read).expect("a memory");
+    act(&mut memory.episode(header("broken off")), "lamp", 1);
+    let found = memory.forget_object(&"one".into(), None).expect("known");
+    assert_eq!((found.episodes, found.words), (2, 0));
+    assert_eq!((bytes(&memory), bytes(&reopened(&memory))), (before.clone(), before.clone()));
+    let mut other = other;
+    other.refresh().expect("learned");
+    assert_eq!(bytes(&other), before, "another program sees it, too");
+    for (object, instance) in [("one", None), ("other", None), ("one", Some("there"))] {
+        let error =
+            memory.forget_object(&object.into(), instance.map(Into::into).as_ref()).expect_err("nothing is left");
+        assert_eq!(error.kind, MemoryErrorKind::NoSuchObject(object.into()));
+    }
+    // Of an episode that is known from elsewhere, too, that is known still.
+    let again = record(folder.path(), "again", "candle", 1);
+    memory.add_demonstrations(&learned(std::slice::from_ref(&again)), "shown").expect("added");
+    remember(&mut memory, "again", "candle", 1);
+    memory.forget_object(&"one".into(), Some(&"here".into())).expect("known");
+    let both = learned(&[trace, again]).to_json().expect("a model");
+    assert_eq!((bytes(&memory), bytes(&reopened(&memory))), (both.clone(), both));
+}
+
+#[test]
 fn an_episode_that_never_ended_counts_as_far_as_it_went() {
     let folder = tempfile::tempdir().expect("a folder");
     let trace = record(folder.path(), "go", "candle", 2);

@@ -36,10 +36,14 @@ fn said(what: What, task: &str) -> String {
         What::Ended { how, source } => format!("{task} ends: {} ({})", how.replace('_', " "), source.short()),
         What::Proposed { task, steps } => proposed(&task, &steps),
         What::Said { task, said } => word(&task, &said),
-        What::Forgotten { source: Some(source), .. } => format!("{} is taken back", source.short()),
-        What::Forgotten { source: None, entries } => {
+        What::Forgotten { source, entries, object } => {
             let entries: Vec<String> = entries.iter().map(|entry| format!("entry {entry}")).collect();
-            format!("{} is taken back", entries.join(", "))
+            let what = match source {
+                Some(source) if object.is_none() => source.short(),
+                _ => entries.join(", "),
+            };
+            let with = object.map(|object| format!(" with {object}")).unwrap_or_default();
+            format!("{what} is taken back{with}")
         }
     }
 }

@@ -6,7 +6,7 @@ mod log;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use typelift::model::SourceId;
+use typelift::model::{SourceId, Symbol};
 use typelift::words::count;
 use typelift_memory::{Access, Memory, Merged, Rescued, What, check, merge, rescue};
 
@@ -101,6 +101,7 @@ known again.")]
   typelift memory forget robot.memory 3f9a01c2
   typelift memory forget robot.memory cut-a-lettuce.jsonl
   typelift memory forget robot.memory --word 12
+  typelift memory forget robot.memory --object cutboard_1 --instance kitchen
 
 `typelift memory log` lists the ids and, in front, the numbers of entries. The
 entries stay in the file.")]
@@ -108,11 +109,17 @@ entries stay in the file.")]
         /// The memory
         file: PathBuf,
         /// Each by a file with its content, its name, or the first digits of its id
-        #[arg(required_unless_present = "word", value_name = "SOURCE")]
+        #[arg(required_unless_present_any = ["word", "object"], value_name = "SOURCE")]
         sources: Vec<String>,
         /// What a person said, by the number of its entry
         #[arg(long, value_name = "ENTRY")]
         word: Vec<i64>,
+        /// Each episode in which something was done with this object, and each word about it
+        #[arg(long, value_name = "OBJECT")]
+        object: Vec<String>,
+        /// The object of this instance of the world only
+        #[arg(long, value_name = "NAME", requires = "object")]
+        instance: Option<String>,
     },
 }
 
@@ -127,7 +134,10 @@ impl MemoryCommand {
             Command::Merge { files, output } => merge_into(files, output, quiet),
             Command::Check { file } => report(file),
             Command::Rescue { file, output } => save(file, output, quiet),
-            Command::Forget { file, sources, word } => forget(file, sources, word, quiet),
+            Command::Forget { file, sources, word, object, instance } => {
+                forget(file, sources, word, quiet)?;
+                forget_objects(file, object, instance.as_deref(), quiet)
+            }
         }
     }
 }
@@ -208,6 +218,18 @@ fn report(file: &Path) -> Result<Exit, Failure> {
     }
     writeln!(out, "{} can be read", entries_said(found.entries))?;
     Ok(if found.problems.is_empty() { Exit::Success } else { Exit::NotAchieved })
+}
+
+fn forget_objects(file: &Path, objects: &[String], instance: Option<&str>, quiet: bool) -> Result<Exit, Failure> {
+    let instance = instance.map(Symbol::new);
+    for object in objects {
+        let found = Memory::open(file, Access::Write)?.forget_object(&Symbol::new(object), instance.as_ref())?;
+        if !quiet {
+            let (episodes, words) = (count(found.episodes as u64, "episode"), count(found.words as u64, "word"));
+            anstream::eprintln!("took back {object}: {episodes}, {words}");
+        }
+    }
+    Ok(Exit::Success)
 }
 
 fn forget(file: &Path, sources: &[String], words: &[i64], quiet: bool) -> Result<Exit, Failure> {

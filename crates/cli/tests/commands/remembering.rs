@@ -436,3 +436,27 @@ fn what_a_person_said_counts_in_the_next_run() {
     folder.run("memory export m -o m.json -q").succeeds();
     assert_eq!(folder.read("m.json"), folder.read("kitchen.json"));
 }
+
+#[test]
+fn an_object_is_taken_back_with_what_was_said_of_it() {
+    let folder = Folder::kitchen();
+    let run = |model: &str, instance: &str, answers: &str| {
+        let command = format!("run {model} {APPLE} --kitchen --imagine --memory m --confirm=all --instance {instance}");
+        folder.run_with_input(&command, answers)
+    };
+    run("kitchen.json", "here", "n 3 broken blender_1\ns\n");
+    run("", "there", "y\n").succeeds();
+    let forgotten = folder.run("memory forget m --object blender_1 --instance here");
+    assert_eq!((forgotten.code, forgotten.err.as_str()), (0, "took back blender_1: 0 episodes, 1 word\n"));
+    let next = run("", "here", "s\n");
+    assert!(next.err.contains("USE(agent_1, blender_1, apple_1)"), "as if nothing had been said of it: {next}");
+    let forgotten = folder.run("memory forget m --object blender_1");
+    assert_eq!((forgotten.code, forgotten.err.as_str()), (0, "took back blender_1: 1 episode, 0 words\n"));
+    folder.run("memory export m -o m.json -q").succeeds();
+    assert_eq!(folder.read("m.json"), folder.read("kitchen.json"), "as if it had never been there");
+    let refused = folder.refuses(31, "memory forget m --object blender_9");
+    assert!(refused.err.contains("nothing was done with blender_9 that is known"), "{refused}");
+    let log = folder.run("memory log m");
+    assert!(log.out.contains("  entry 3 is taken back with blender_1\n"), "{log}");
+    folder.run("memory check m").succeeds();
+}
