@@ -225,6 +225,14 @@ impl ActionBelief {
         causes
     }
 
+    /// The objects of each failure, with the odds that they are out of order now.
+    pub(crate) fn objects_out_of_order(&self) -> impl Iterator<Item = (&Cause, f64)> {
+        let nothing = BTreeMap::new();
+        self.outcomes.iter().flat_map(|outcome| &outcome.objects).map(move |(cause, object)| {
+            (cause, odds(object.then + self.blamed_by_others(cause, &nothing)) * object.since.exp())
+        })
+    }
+
     /// By how much all failures but the one whose blame is its `own` raise the logarithmic odds of a cause.
     fn blamed_by_others(&self, cause: &Cause, own: &BTreeMap<Cause, f64>) -> f64 {
         (share(own, cause) - share(&self.blamed, cause)) * CHANCE.ln()

@@ -16,6 +16,9 @@ pub enum Cause {
         instance: Symbol,
         /// Its name.
         object: Symbol,
+        /// When it had worked last, in the order in which all was tried; 0 if it never had. Failures between which it worked
+        /// have different causes.
+        worked: u64,
     },
     /// The type at a parameter.
     Type(usize, TypeId),

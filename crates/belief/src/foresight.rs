@@ -37,29 +37,22 @@ impl ActionBelief {
             self.missing_in(&outcome),
             outcome.held.iter().filter(|atom| self.is_absent(atom)).cloned(),
         );
-        causes.extend(self.objects_suspected(schema, next.deed, run, hierarchy));
+        causes.extend(self.objects_suspected(next.deed));
         Some(self.works(&causes))
     }
 
     /// The objects of a deed with which something failed, each with the odds that it is out of order now.
-    fn objects_suspected(
-        &self,
-        schema: &ActionSchema,
-        deed: &Deed,
-        run: &[Tried<'_>],
-        hierarchy: &Hierarchy,
-    ) -> BTreeMap<Cause, f64> {
-        let mut suspected = BTreeMap::new();
-        let failures = run.iter().filter(|one| !one.worked && one.deed.instance == deed.instance);
-        for (cause, odds) in failures.flat_map(|failure| self.blame(schema, failure, run, hierarchy)) {
-            let is_of_deed = match &cause {
-                Cause::Object { object, .. } => deed.participants.iter().any(|one| one.object == *object),
-                _ => false,
-            };
-            if is_of_deed {
-                let most = suspected.entry(cause).or_insert(odds);
-                *most = odds.max(*most);
+    fn objects_suspected(&self, deed: &Deed) -> BTreeMap<Cause, f64> {
+        let is_of_deed = |cause: &Cause| match cause {
+            Cause::Object { instance, object, .. } => {
+                *instance == deed.instance && deed.participants.iter().any(|one| one.object == *object)
             }
+            _ => false,
+        };
+        let mut suspected = BTreeMap::new();
+        for (cause, odds) in self.objects_out_of_order().filter(|(cause, _)| is_of_deed(cause)) {
+            let most = suspected.entry(cause.clone()).or_insert(odds);
+            *most = odds.max(*most);
         }
         suspected
     }

@@ -109,8 +109,9 @@ fn object_odds(failure: &Tried<'_>, all: &[Tried<'_>]) -> BTreeMap<Cause, OutOfO
     let objects = failure.deed.participants.iter().map(|participant| &participant.object);
     let others = objects.filter(|object| !failure.actors.contains(*object));
     let suspected = others.map(|object| {
-        let cause = Cause::Object { instance: failure.deed.instance.clone(), object: object.clone() };
-        (cause, out_of_order(failure, object, all))
+        let suspected = out_of_order(failure, object, all);
+        let instance = failure.deed.instance.clone();
+        (Cause::Object { instance, object: object.clone(), worked: suspected.worked }, suspected)
     });
     suspected.collect()
 }
