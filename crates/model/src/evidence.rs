@@ -6,6 +6,7 @@
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
+use std::sync::{Arc, OnceLock};
 
 use thiserror::Error;
 
@@ -21,14 +22,55 @@ pub struct Evidence {
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum Observed {
     /// What each source contributes.
-    BySource(BTreeMap<SourceId, Observations>),
+    BySource(Parts),
     /// The sum alone.
     Total(Box<Observations>),
 }
 
 impl Default for Observed {
     fn default() -> Self {
-        Self::BySource(BTreeMap::new())
+        Self::BySource(Parts::default())
+    }
+}
+
+/// What each source contributes. Copies share it.
+#[derive(Debug, Clone, Default)]
+struct Parts {
+    by_source: BTreeMap<SourceId, Arc<Observations>>,
+    /// The sum, once it was asked for: what is added later is added to it.
+    sum: OnceLock<Arc<Observations>>,
+}
+
+impl PartialEq for Parts {
+    fn eq(&self, other: &Self) -> bool {
+        self.by_source == other.by_source
+    }
+}
+
+impl Eq for Parts {}
+
+impl Parts {
+    /// Adds what a source contributes, which is not there yet or is replaced.
+    fn insert(&mut self, id: SourceId, part: Arc<Observations>) {
+        match (self.by_source.insert(id, Arc::clone(&part)), self.sum.get_mut()) {
+            (None, Some(sum)) => Arc::make_mut(sum).merge(&part),
+            (Some(_), _) => drop(self.sum.take()),
+            (None, None) => {}
+        }
+    }
+
+    fn remove(&mut self, id: SourceId) {
+        self.by_source.remove(&id);
+        self.sum.take();
+    }
+
+    /// The sum of all. The first time in time of all, later of what was added.
+    fn sum(&self) -> &Observations {
+        self.sum.get_or_init(|| {
+            let mut total = Observations::default();
+            self.by_source.values().for_each(|part| total.merge(part));
+            Arc::new(total)
+        })
     }
 }
 
@@ -63,11 +105,11 @@ pub struct CompactError;
 impl FromIterator<(SourceId, Symbol, Observations)> for Evidence {
     /// What was observed in each source, which has a name for people. A source that comes twice counts once.
     fn from_iter<I: IntoIterator<Item = (SourceId, Symbol, Observations)>>(all: I) -> Self {
-        let (mut sources, mut parts) = (BTreeMap::<SourceId, Source>::new(), BTreeMap::new());
+        let (mut sources, mut parts) = (BTreeMap::<SourceId, Source>::new(), Parts::default());
         for (id, name, observations) in all {
             if sources.get(&id).is_none_or(|known| name < known.name) {
                 sources.insert(id, Source { name, transitions: observations.transitions });
-                parts.insert(id, observations);
+                parts.insert(id, Arc::new(observations));
             }
         }
         Self { sources, observed: Observed::BySource(parts) }
@@ -93,30 +135,22 @@ impl Evidence {
     /// What each source contributes; of compact evidence the total, without a source.
     pub fn parts(&self) -> Vec<(Option<SourceId>, &Observations)> {
         match &self.observed {
-            Observed::BySource(parts) => parts.iter().map(|(id, part)| (Some(*id), part)).collect(),
+            Observed::BySource(parts) => parts.by_source.iter().map(|(id, part)| (Some(*id), &**part)).collect(),
             Observed::Total(total) => vec![(None, total)],
         }
     }
 
-    /// What is learned from: the sum of all that was observed, [settled](Observations::settled). In time of its size.
+    /// What is learned from: the sum of all that was observed, [settled](Observations::settled). The first time in time of its
+    /// size, later of what was added.
     pub fn total(&self) -> Cow<'_, Observations> {
-        match self.sum() {
-            Cow::Borrowed(sum) => sum.settled(),
-            Cow::Owned(sum) if sum.open.is_empty() => Cow::Owned(sum),
-            Cow::Owned(sum) => Cow::Owned(sum.settled().into_owned()),
-        }
+        self.sum().settled()
     }
 
     /// The sum of all that was observed.
-    fn sum(&self) -> Cow<'_, Observations> {
-        match self.parts().as_slice() {
-            [] => Cow::default(),
-            [(_, only)] => Cow::Borrowed(only),
-            parts => {
-                let mut total = Observations::default();
-                parts.iter().for_each(|(_, part)| total.merge(part));
-                Cow::Owned(total)
-            }
+    fn sum(&self) -> &Observations {
+        match &self.observed {
+            Observed::BySource(parts) => parts.sum(),
+            Observed::Total(total) => total,
         }
     }
 
@@ -131,14 +165,15 @@ impl Evidence {
             for id in &shared {
                 // Under one name they are the same, unless they were read in different ways.
                 let name = &self.sources[id].name;
-                if parts[id].renamed(name) != others[id].renamed(name) {
+                let (own, other) = (&parts.by_source[id], &others.by_source[id]);
+                if !Arc::ptr_eq(own, other) && own.renamed(name) != other.renamed(name) {
                     return Err(MergeError::ReadDifferently { id: *id, name: name.clone() });
                 }
             }
             for (id, source) in &other.sources {
                 if self.sources.get(id).is_none_or(|known| source.name < known.name) {
                     self.sources.insert(*id, source.clone());
-                    parts.insert(*id, others[id].clone());
+                    parts.insert(*id, Arc::clone(&others.by_source[id]));
                 }
             }
             return Ok(shared);
@@ -154,7 +189,7 @@ impl Evidence {
         }
         self.compact();
         if let Observed::Total(total) = &mut self.observed {
-            total.merge(&other.sum());
+            total.merge(other.sum());
         }
         self.sources.extend(other.sources.clone());
         Ok(shared)
@@ -180,7 +215,7 @@ impl Evidence {
     /// [`CompactError`] if totals alone are kept.
     pub fn take_out(&mut self, id: SourceId) -> Result<bool, CompactError> {
         let Observed::BySource(parts) = &mut self.observed else { return Err(CompactError) };
-        parts.remove(&id);
+        parts.remove(id);
         Ok(self.sources.remove(&id).is_some())
     }
 
@@ -188,7 +223,7 @@ impl Evidence {
     /// any more, and only parts that share no source can be added.
     pub fn compact(&mut self) {
         if !self.is_compact() {
-            self.observed = Observed::Total(Box::new(self.sum().into_owned()));
+            self.observed = Observed::Total(Box::new(self.sum().clone()));
         }
     }
 }
