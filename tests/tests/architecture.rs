@@ -163,7 +163,7 @@ fn libraries_deny_missing_docs() {
 const ORDER_IN_PLAN: &[&str] = &[
     "alike", "assignment", "fact", "packed_lists", "outcome", "poll", "report", "restrictions", "shuffle",
     "op", "axioms", "pattern", "scope", "reach", "distinct", "ground", "fdr",
-    "instantiate", "conflict", "obstacle", "explain", "external", "relaxation", "restriction_literals", "symmetry",
+    "instantiate", "conflict", "obstacle", "explanation", "explain", "external", "relaxation", "restriction_literals", "symmetry",
     "landmark", "heuristic", "search", "lama", "ordered_first", "strategy", "options", "stages", "level", "widening",
     "alternatives", "planner",
 ];

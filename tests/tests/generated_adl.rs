@@ -18,7 +18,7 @@ use typelift::pddl::{
     read_problem,
 };
 use typelift::plan::{
-    self, Conflict, Explanation, Obstacle, Outcome, Restrictions, Strategy, UnreachableGoal, Unreached,
+    self, Conflict, Explanation, Nearest, Obstacle, Outcome, Restrictions, Strategy, UnreachableGoal, Unreached,
 };
 use typelift_tests::adl_tasks::AdlTask;
 
@@ -309,9 +309,7 @@ impl Known<'_> {
             Explanation::NeverDeleted(goals) => {
                 let all = |state| goals.iter().all(|goal| self.said_holds(&goal.atom, state));
                 assert!(self.space.states.iter().all(all), "{text}\n{}", self.texts);
-                for obstacle in goals.iter().filter_map(|goal| goal.nearest.as_ref()).flat_map(|near| &near.obstacles) {
-                    self.check_obstacle(obstacle);
-                }
+                goals.iter().filter_map(|goal| goal.nearest.as_ref()).for_each(|nearest| self.check_nearest(nearest));
                 "never deleted"
             }
             Explanation::NotTogether { missing, conflict } => {
@@ -347,6 +345,13 @@ impl Known<'_> {
         if price.atom != *other {
             let price = holding(&price.atom);
             assert!((0..price.len()).all(|state| !price[state] || !of_other[state]), "{}", self.texts);
+        }
+    }
+
+    fn check_nearest(&self, nearest: &Nearest) {
+        nearest.obstacles.iter().for_each(|obstacle| self.check_obstacle(obstacle));
+        if let Some(root) = &nearest.root {
+            self.assert_never(&root.needs);
         }
     }
 
@@ -390,7 +395,7 @@ impl Known<'_> {
                 let action = self.meaning.action(nearest.action.as_str());
                 let adds = action.is_some_and(|action| adds(&action.effect, atom));
                 assert!(adds, "no action {} adds {atom}\n{}", nearest.action, self.texts);
-                nearest.obstacles.iter().for_each(|obstacle| self.check_obstacle(obstacle));
+                self.check_nearest(nearest);
                 "nearest"
             }
         }

@@ -59,6 +59,40 @@ fn what_only_another_case_needs_is_not_said_to_be_needed() {
     );
 }
 
+/// What is missing is followed down, not around: nobody has a ticket since nobody has money, and the hook that is to hold a
+/// crate is not free and holds none.
+#[test]
+fn what_is_missing_at_the_root_is_said() {
+    let fair =
+        "(:types guest) (:predicates (inside ?g - guest) (ticket ?g - guest) (money ?g - guest) (asked ?g - guest))
+        (:action enter :parameters (?g - guest) :precondition (ticket ?g) :effect (inside ?g))
+        (:action buy :parameters (?g - guest) :precondition (money ?g) :effect (and (ticket ?g) (not (money ?g))))";
+    let inside = "(:objects a - guest) (:init) (:goal (inside a))";
+    let needs_ticket = "inside(a) cannot be reached: the nearest action is enter, but it needs ticket(a), which cannot be \
+                        reached";
+    assert_eq!(
+        reason(fair, inside),
+        format!("{needs_ticket}; in the end buy needs money(a), which cannot be reached either")
+    );
+    let asking = "(:action ask :parameters (?g - guest) :precondition (asked ?g) :effect (money ?g))";
+    assert_eq!(
+        reason(&format!("{fair} {asking}"), inside),
+        format!("{needs_ticket}; in the end ask needs asked(a), which cannot be reached either")
+    );
+    let crane = "(:types hook crate) (:constants h - hook)
+        (:predicates (free ?h - hook) (holds ?h - hook ?c - crate) (shipped ?c - crate))
+        (:action ship :parameters (?c - crate) :precondition (holds h ?c) :effect (shipped ?c))
+        (:action grab :parameters (?h - hook ?c - crate) :precondition (free ?h)
+          :effect (and (holds ?h ?c) (not (free ?h))))
+        (:action drop :parameters (?h - hook ?c - crate) :precondition (holds ?h ?c)
+          :effect (and (free ?h) (not (holds ?h ?c))))";
+    assert_eq!(
+        reason(crane, "(:objects c d - crate) (:init) (:goal (shipped c))"),
+        "shipped(c) cannot be reached: the nearest action is ship, but it needs holds(h,c), which cannot be reached; in the \
+         end grab needs free(h), which cannot be reached either"
+    );
+}
+
 #[test]
 fn an_action_that_is_never_used_is_not_said_not_to_be_there() {
     let odd = "(:action odd :parameters (?s - ship) :precondition (or) :effect (sailed ?s))";

@@ -5,184 +5,15 @@
 //! "no action can add it" is true where "no action adds it" may not be, and what the nearest schema needs is said of one case.
 
 use std::collections::BTreeSet;
-use std::fmt::{self, Display};
 
-use serde::{Deserialize, Serialize};
 use typelift_model::{
     ActionModel, ActionSchema, Axiom, Effect, GroundAtom, HashMap, LiftedAtom, Parameter, Symbol, Task, Term, TypeId,
 };
 
 use crate::Restrictions;
-use crate::conflict::Conflict;
-use crate::obstacle::{Nearest, Obstacle};
+use crate::explanation::{UndeletedGoal, UnreachableGoal, Unreached};
+use crate::obstacle::{Nearest, Need, Obstacle, Root};
 use crate::reach::Reachable;
-
-/// Why a goal atom cannot be reached.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case")]
-pub enum Unreached {
-    /// No action can add it.
-    NoAction,
-    /// No action can add it: this one, which adds atoms of its predicate, can never be used.
-    NeverUsed(Symbol),
-    /// This action comes nearest to adding it.
-    Nearest(Nearest),
-    /// It is derived, and follows from nothing that can be reached. For each rule, something that the rule needs and that
-    /// cannot be reached; nothing at all if there is a rule of which everything can be reached, but not together.
-    Derived(Vec<String>),
-    /// It is what the text puts as a part of the goal, and contradicts itself or what never changes.
-    Impossible,
-}
-
-/// A goal atom that cannot be reached even if nothing is ever deleted.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct UnreachableGoal<A = GroundAtom> {
-    /// The atom.
-    pub atom: A,
-    /// Why not.
-    pub why: Unreached,
-}
-
-/// An atom that must not hold in the end, but does from the start, and that nothing deletes.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct UndeletedGoal<A = GroundAtom> {
-    /// The atom.
-    pub atom: A,
-    /// The action that comes nearest to deleting it; none if no action deletes such atoms.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub nearest: Option<Nearest>,
-}
-
-/// Why there is no plan. The planner says it of the model's atoms; [`in_words`](Explanation::in_words) of what these stand
-/// for in the text that the model was made from.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case")]
-pub enum Explanation<A = GroundAtom> {
-    /// Some goal atoms cannot be reached at all.
-    Unreachable(Vec<UnreachableGoal<A>>),
-    /// No state that can be reached holds both of two goal atoms.
-    Exclusive {
-        /// The one.
-        one: A,
-        /// The other.
-        other: A,
-    },
-    /// Another planner says so, and no more.
-    ToldByPlanner,
-    /// These atoms must not hold in the end, but do from the start, and no action can delete them.
-    NeverDeleted(Vec<UndeletedGoal<A>>),
-    /// No state that can be reached satisfies the whole goal; where the search came closest, these were missing.
-    NotTogether {
-        /// The missing goal atoms, and whether each must hold. None where the search did not look at any state.
-        missing: Vec<(A, bool)>,
-        /// Two of the goal atoms that undo each other, if that is known.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        conflict: Option<Conflict<A>>,
-    },
-}
-
-impl Explanation {
-    /// The same in the words of the text that this model was made from.
-    pub fn in_words(&self, model: &ActionModel) -> Explanation<String> {
-        let words = |atom: &GroundAtom| model.in_words(atom, true);
-        match self {
-            Self::Unreachable(goals) => {
-                let goal = |goal: &UnreachableGoal| UnreachableGoal { atom: words(&goal.atom), why: goal.why.clone() };
-                Explanation::Unreachable(goals.iter().map(goal).collect())
-            }
-            Self::Exclusive { one, other } => Explanation::Exclusive { one: words(one), other: words(other) },
-            Self::ToldByPlanner => Explanation::ToldByPlanner,
-            Self::NeverDeleted(goals) => {
-                let goal =
-                    |goal: &UndeletedGoal| UndeletedGoal { atom: words(&goal.atom), nearest: goal.nearest.clone() };
-                Explanation::NeverDeleted(goals.iter().map(goal).collect())
-            }
-            Self::NotTogether { missing, conflict } => {
-                // A formula is negated in its own words.
-                let literal = |(atom, positive): &(GroundAtom, bool)| match model.wordings.get(&atom.predicate) {
-                    Some(_) => (model.in_words(atom, *positive), true),
-                    None => (words(atom), *positive),
-                };
-                let conflict = conflict.as_ref().map(|conflict| conflict.map(words));
-                Explanation::NotTogether { missing: missing.iter().map(literal).collect(), conflict }
-            }
-        }
-    }
-}
-
-impl<A: Display + PartialEq> Display for Explanation<A> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Unreachable(goals) => {
-                let lines: Vec<String> = goals.iter().map(ToString::to_string).collect();
-                f.write_str(&lines.join("\n"))
-            }
-            Self::Exclusive { one, other } => {
-                write!(f, "{one} and {other} cannot hold together: no state that can be reached holds both")
-            }
-            Self::ToldByPlanner => f.write_str("the planner says that there is none"),
-            Self::NeverDeleted(goals) => {
-                let lines: Vec<String> = goals.iter().map(ToString::to_string).collect();
-                f.write_str(&lines.join("\n"))
-            }
-            Self::NotTogether { missing, conflict } => {
-                f.write_str("no state that can be reached satisfies the goal")?;
-                let missing: Vec<String> = missing
-                    .iter()
-                    .map(|(atom, positive)| format!("{}{atom}", if *positive { "" } else { "not " }))
-                    .collect();
-                if !missing.is_empty() {
-                    write!(f, "; at best this is missing: {}", missing.join(", "))?;
-                }
-                conflict.iter().try_for_each(|conflict| write!(f, "\n{conflict}"))
-            }
-        }
-    }
-}
-
-impl<A: Display> Display for UnreachableGoal<A> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let atom = &self.atom;
-        match &self.why {
-            Unreached::Impossible => write!(f, "{atom} can never hold"),
-            why => write!(f, "{atom} cannot be reached: {why}"),
-        }
-    }
-}
-
-impl Display for Unreached {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoAction => f.write_str("no action can add it"),
-            Self::NeverUsed(action) => {
-                write!(f, "no action can add it: {action}, which adds such atoms, can never be used")
-            }
-            Self::Nearest(nearest) => nearest.say(f, "add"),
-            Self::Derived(needed) if needed.is_empty() => f.write_str("it follows from nothing that can be reached"),
-            Self::Derived(needed) => {
-                write!(f, "it follows only from what cannot be reached: {}", needed.join(", "))
-            }
-            Self::Impossible => f.write_str("it can never hold"),
-        }
-    }
-}
-
-impl<A: Display> Display for UndeletedGoal<A> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} must not hold in the end, ", self.atom)?;
-        match &self.nearest {
-            None => f.write_str("but no action can delete it"),
-            Some(nearest) => {
-                f.write_str("and cannot be deleted: ")?;
-                nearest.say(f, "delete")
-            }
-        }
-    }
-}
 
 /// For each unreachable goal atom, why it is not reached.
 pub(crate) fn unreachable(
@@ -246,12 +77,78 @@ impl Context<'_> {
         &self,
         effects: impl Iterator<Item = (&'e ActionSchema, &'e Effect, Vec<Option<&'e Symbol>>)>,
     ) -> Option<Nearest> {
-        let ways: Vec<Nearest> =
+        let (nearest, need) = self.nearest_way(effects)?;
+        Some(Nearest { root: need.and_then(|need| self.root(need)), ..nearest })
+    }
+
+    /// The same, with what it needs and cannot be reached, if that is what keeps it from it.
+    fn nearest_way<'e>(
+        &self,
+        effects: impl Iterator<Item = (&'e ActionSchema, &'e Effect, Vec<Option<&'e Symbol>>)>,
+    ) -> Option<(Nearest, Option<Need>)> {
+        let ways: Vec<(Nearest, Option<Need>)> =
             effects.map(|(schema, effect, binding)| self.obstructed(schema, effect, &binding)).collect();
         // Of several that are as near, one that was shown, which whoever reads this can look up.
-        let nearest = ways.iter().min_by_key(|way| (way.obstacles.len(), way.imagined))?;
-        let of_same = ways.iter().filter(|way| way.action == nearest.action).count();
-        Some(Nearest { one_of_several: of_same > 1, ..nearest.clone() })
+        let (nearest, need) = ways.iter().min_by_key(|(way, _)| (way.obstacles.len(), way.imagined))?;
+        let of_same = ways.iter().filter(|(way, _)| way.action == nearest.action).count();
+        Some((Nearest { one_of_several: of_same > 1, ..nearest.clone() }, need.clone()))
+    }
+
+    /// For want of what this cannot be reached, in the end: down from what the nearest action needs to what the nearest
+    /// action to that needs, as long as that is something new. Each is known not to be reached.
+    fn root(&self, need: Need) -> Option<Root> {
+        let mut root = None;
+        let mut needs = vec![need];
+        while let Some((way, Some(next))) = needs.last().and_then(|last| self.nearest_way(self.adding_some(last))) {
+            // What another case of the action does without is not needed.
+            if way.one_of_several {
+                break;
+            }
+            // What needs a thing of its kind to begin with is missing for want of the kind, and anything else in a circle for
+            // want of what stands in it.
+            let is_of_kind = needs.len() == 1 && next != needs[0];
+            let is_known = needs.iter().any(|known| next.covers(known) || known.covers(&next));
+            if !is_known || is_of_kind {
+                root = Some(Root { action: way.action, needs: next.text.clone() });
+            }
+            if is_known {
+                break;
+            }
+            needs.push(next);
+        }
+        root
+    }
+
+    /// The effects that may add some atom like this, each with the objects that this puts in the place of its parameters.
+    fn adding_some<'e>(
+        &'e self,
+        need: &'e Need,
+    ) -> impl Iterator<Item = (&'e ActionSchema, &'e Effect, Vec<Option<&'e Symbol>>)> {
+        let is_given = |predicate: &Symbol| {
+            self.model.wordings.contains_key(predicate)
+                || self.model.axioms.iter().any(|axiom| axiom.head.predicate == *predicate)
+        };
+        let schemas = self.model.actions.iter().filter(move |_| !is_given(&need.predicate));
+        let effects = schemas.flat_map(|schema| schema.effects.iter().map(move |effect| (schema, effect)));
+        effects.filter_map(|(schema, effect)| {
+            let atom = &effect.literal.atom;
+            if !effect.literal.positive || atom.predicate != need.predicate || atom.args.len() != need.args.len() {
+                return None;
+            }
+            let mut binding = vec![None; schema.parameters.len() + effect.parameters.len()];
+            for (term, object) in atom.args.iter().zip(&need.args) {
+                let Some(object) = object else { continue };
+                match term {
+                    Term::Const(name) if name != object => return None,
+                    Term::Const(_) => {}
+                    Term::Param(p) => match binding[*p as usize].replace(object) {
+                        Some(other) if other != object => return None,
+                        _ => {}
+                    },
+                }
+            }
+            Some((schema, effect, binding))
+        })
     }
 
     /// For each rule by which an atom could follow, something that it needs and that cannot be reached; nothing if one of
@@ -275,18 +172,26 @@ impl Context<'_> {
     }
 
     /// What keeps an effect of `schema` from changing an atom that puts these objects in the place of its parameters.
-    fn obstructed(&self, schema: &ActionSchema, effect: &Effect, binding: &[Option<&Symbol>]) -> Nearest {
+    fn obstructed(
+        &self,
+        schema: &ActionSchema,
+        effect: &Effect,
+        binding: &[Option<&Symbol>],
+    ) -> (Nearest, Option<Need>) {
         let mut obstacles = self.unfit(schema, effect, binding);
         let parameters = [&schema.parameters[..], &effect.parameters].concat();
         let missing = |need: &&LiftedAtom| !self.reachable_somehow(&parameters, need, binding);
-        let written = |need: &LiftedAtom| self.written(&parameters, need, binding);
+        let needed = |need: &LiftedAtom| self.need(&parameters, need, binding);
+        let mut need = None;
         if obstacles.is_empty() {
             let precondition = schema.positive_preconditions().find(missing);
-            obstacles.extend(precondition.map(|need| Obstacle::Precondition(written(need))));
+            need = precondition.map(needed);
+            obstacles.extend(need.iter().map(|need| Obstacle::Precondition(need.text.clone())));
         }
         if obstacles.is_empty() {
             let condition = effect.condition.iter().filter(|l| l.positive && !l.atom.is_equality());
-            obstacles.extend(condition.map(|l| &l.atom).find(missing).map(|need| Obstacle::Condition(written(need))));
+            need = condition.map(|l| &l.atom).find(missing).map(needed);
+            obstacles.extend(need.iter().map(|need| Obstacle::Condition(need.text.clone())));
         }
         let is_banned = || {
             let mut calls = self.restrictions.banned.iter().map(|ban| &ban.call).chain(&self.restrictions.calls);
@@ -297,7 +202,7 @@ impl Context<'_> {
             obstacles.push(Obstacle::Banned);
         }
         let imagined = schema.provenance.imagined().is_some();
-        Nearest { action: schema.signature().name, one_of_several: false, imagined, obstacles }
+        (Nearest { action: schema.signature().name, one_of_several: false, imagined, obstacles, root: None }, need)
     }
 
     /// The objects that do not fit the parameters of an action and of its effect.
@@ -347,6 +252,16 @@ impl Context<'_> {
         let mut binding = binding.to_vec();
         let reached = self.reached.get(&atom.predicate).into_iter().flatten();
         reached.into_iter().any(|fact| atom.bind(fact, &mut binding, is_of_type).is_some())
+    }
+
+    /// A lifted atom under a partial binding, that is needed.
+    fn need(&self, parameters: &[Parameter], atom: &LiftedAtom, binding: &[Option<&Symbol>]) -> Need {
+        let arg = |term: &Term| match term {
+            Term::Const(name) => Some(name.clone()),
+            Term::Param(p) => binding[*p as usize].cloned(),
+        };
+        let args = atom.args.iter().map(arg).collect();
+        Need { predicate: atom.predicate.clone(), args, text: self.written(parameters, atom, binding) }
     }
 
     /// A lifted atom in the text's words, with bound parameters written as objects and others as `any TYPE`, or

@@ -6,7 +6,8 @@ use typelift_model::{ActionModel, Budget, GroundAtom, HashSet, Stop, Task};
 
 use crate::Restrictions;
 use crate::conflict::{Conflict, conflict};
-use crate::explain::{Explanation, undeleted, unreachable};
+use crate::explain::{undeleted, unreachable};
+use crate::explanation::Explanation;
 use crate::fact::FactId;
 use crate::fdr::Fdr;
 use crate::ground::GroundTask;

@@ -70,6 +70,38 @@ pub struct Nearest {
     pub imagined: bool,
     /// What is missing; empty if only no choice of objects satisfies all that it needs.
     pub obstacles: Vec<Obstacle>,
+    /// Where what is missing is missing for want of something else: what that is in the end.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub root: Option<Root>,
+}
+
+/// Something that cannot be reached, and for want of which something else cannot: what the nearest action to that needs, or
+/// the nearest to what that needs, and so on.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Root {
+    /// The action that needs it, as plans have it.
+    pub action: Symbol,
+    /// The atom; parameters that it leaves open are written by their type.
+    pub needs: String,
+}
+
+/// An atom that an action needs and that cannot be reached; what is open in it may be anything that fits.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Need {
+    pub(crate) predicate: Symbol,
+    pub(crate) args: Vec<Option<Symbol>>,
+    pub(crate) text: String,
+}
+
+impl Need {
+    /// Whether this is the other, or that with more left open.
+    pub(crate) fn covers(&self, other: &Self) -> bool {
+        let covers = |(own, other): (&Option<Symbol>, &Option<Symbol>)| own.is_none() || own == other;
+        self.predicate == other.predicate
+            && self.args.len() == other.args.len()
+            && self.args.iter().zip(&other.args).all(covers)
+    }
 }
 
 fn is_false(value: &bool) -> bool {
@@ -79,13 +111,16 @@ fn is_false(value: &bool) -> bool {
 impl Nearest {
     /// What keeps it from adding the atom, or from deleting it.
     pub(crate) fn say(&self, f: &mut fmt::Formatter<'_>, change: &str) -> fmt::Result {
-        let Self { action, one_of_several, imagined, obstacles } = self;
+        let Self { action, one_of_several, imagined, obstacles, root } = self;
         let action = if *imagined { format!("{action} (imagined)") } else { action.to_string() };
         if obstacles.is_empty() {
             return write!(f, "no choice of objects lets {action} {change} it");
         }
         let way = if *one_of_several { "in the nearest of its cases " } else { "" };
         let obstacles: Vec<String> = obstacles.iter().map(ToString::to_string).collect();
-        write!(f, "the nearest action is {action}, but {way}{}", obstacles.join(", and "))
+        write!(f, "the nearest action is {action}, but {way}{}", obstacles.join(", and "))?;
+        root.iter().try_for_each(|Root { action, needs }| {
+            write!(f, "; in the end {action} needs {needs}, which cannot be reached either")
+        })
     }
 }

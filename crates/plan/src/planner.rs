@@ -6,7 +6,7 @@ use typelift_model::{ActionModel, Budget, GroundCall, Plan, Stop, Task};
 
 use crate::Restrictions;
 use crate::alternatives::Alternatives;
-use crate::explain::Explanation;
+use crate::explanation::Explanation;
 use crate::ground::GroundTask;
 use crate::options::Options;
 use crate::outcome::Outcome;

@@ -3,7 +3,7 @@
 use typelift_model::{ActionModel, Budget, GroundAtom, Stop, Task};
 
 use crate::Restrictions;
-use crate::explain::Explanation;
+use crate::explanation::Explanation;
 use crate::level::Level;
 use crate::options::Options;
 use crate::reach::Reachable;
