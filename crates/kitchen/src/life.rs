@@ -1,9 +1,14 @@
 //! A life in a kitchen: tasks one after the other, in rooms of the same tools and with other items. Tools break and are mended; some foods do not go
-//! with some tools, and one rule concerns what takes no part in the call that it forbids. None of it is ever observed.
+//! with some tools, and one rule concerns what takes no part in the call that it forbids. None of it is ever observed, and none of
+//! it contradicts what the demonstrations show.
+
+use std::collections::BTreeSet;
 
 use serde_json::json;
 use typelift_model::{SplitMix64, Symbol};
+use typelift_world::{Entity, Scene};
 
+use crate::demonstration::demonstrations;
 use crate::kind::{ItemKind, Process, StationKind};
 use crate::quirk::{Exception, Interlock};
 use crate::tasks::{KitchenTask, tasks};
@@ -22,7 +27,7 @@ const MENDED_AFTER: usize = 10;
 pub struct Life {
     /// The exceptions: pairs of a food and a tool that does to others what it does not do to this one. Another tool does it.
     pub exceptions: Vec<Exception>,
-    /// The hidden rule: nothing can be cut while something lies in a toasting tool.
+    /// The hidden rule: while something lies in a toasting tool, no cutting tool does anything but those that were demonstrated to.
     pub interlock: Interlock,
     /// The tasks, in order.
     pub tasks: Vec<LifeTask>,
@@ -45,8 +50,9 @@ pub struct LifeTask {
 /// [`tasks`](tasks()) gives.
 pub fn life(seed: u64, length: usize) -> Life {
     let mut random = SplitMix64::new(seed);
-    let exceptions = exceptions(&mut random);
-    let interlock = interlock(&mut random);
+    let shown = Shown::by_demonstrations();
+    let exceptions = exceptions(&mut random, &shown);
+    let interlock = interlock(&mut random, &shown);
     let (all, mut broken) = (tasks(), Vec::new());
     let tasks = (0..length).map(|number| {
         let task = all[random.below(all.len())].clone();
@@ -65,12 +71,44 @@ pub fn life(seed: u64, length: usize) -> Life {
     Life { exceptions, interlock, tasks }
 }
 
-/// Pairs of a food and a tool, such that another tool is left for what the tool does to the food.
-fn exceptions(random: &mut SplitMix64) -> Vec<Exception> {
+/// What the demonstrations show of tools in use.
+struct Shown {
+    /// Foods, each with a tool that does something to it.
+    pairs: BTreeSet<(Symbol, Symbol)>,
+    /// Tools in use, each with one in which something lay then.
+    beside: BTreeSet<(Symbol, Symbol)>,
+}
+
+impl Shown {
+    fn by_demonstrations() -> Self {
+        let mut shown = Self { pairs: BTreeSet::new(), beside: BTreeSet::new() };
+        for demonstration in demonstrations(0) {
+            let recording = demonstration.recording;
+            for (scene, (action, _)) in recording.scenes().zip(&recording.steps) {
+                let ("USE", [_, tool, food]) = (action.call.name.as_str(), &action.call.args[..]) else { continue };
+                shown.pairs.insert((kind_name(food), kind_name(tool)));
+                let Scene::Snapshot(snapshot) = scene else { continue };
+                let content =
+                    |entity: &Entity| entity.relations.get("content").is_some_and(|r| !r.targets().is_empty());
+                let loaded = snapshot.entities.iter().filter(|entity| content(entity));
+                shown.beside.extend(loaded.map(|entity| (tool.clone(), entity.id.clone())));
+            }
+        }
+        shown
+    }
+}
+
+/// `bread_2` is a `bread`.
+fn kind_name(name: &Symbol) -> Symbol {
+    Symbol::from(name.as_str().trim_end_matches(|c: char| c.is_ascii_digit() || c == '_'))
+}
+
+/// Pairs of a food and a tool that were not demonstrated, such that another tool is left for what the tool does to the food.
+fn exceptions(random: &mut SplitMix64, shown: &Shown) -> Vec<Exception> {
     let foods = ItemKind::ALL.into_iter().filter(|kind| kind.is_food());
     let mut pairs: Vec<(ItemKind, StationKind)> = foods
         .flat_map(|food| StationKind::TOOLS.map(|tool| (food, tool)))
-        .filter(|(food, tool)| takes(*tool, *food))
+        .filter(|(food, tool)| takes(*tool, *food) && !shown.pairs.contains(&(food.name().into(), tool.name().into())))
         .collect();
     random.shuffle(&mut pairs);
     let mut chosen: Vec<(ItemKind, StationKind)> = Vec::new();
@@ -100,12 +138,15 @@ fn takes(tool: StationKind, food: ItemKind) -> bool {
     }
 }
 
-fn interlock(random: &mut SplitMix64) -> Interlock {
+fn interlock(random: &mut SplitMix64, shown: &Shown) -> Interlock {
     let of = |process: Process| -> Vec<Symbol> {
         StationKind::TOOLS.into_iter().filter(|tool| tool.process() == Some(process)).map(tool_name).collect()
     };
     let mut toasting = of(Process::Toast);
-    Interlock { tools: of(Process::Cut), loaded: toasting.swap_remove(random.below(toasting.len())) }
+    let loaded = toasting.swap_remove(random.below(toasting.len()));
+    let mut tools = of(Process::Cut);
+    tools.retain(|tool| !shown.beside.contains(&(tool.clone(), loaded.clone())));
+    Interlock { tools, loaded }
 }
 
 fn in_order(broken: &[(Symbol, usize)]) -> Vec<Symbol> {
@@ -142,8 +183,6 @@ fn of_other_items(mut task: KitchenTask, number: usize) -> KitchenTask {
 
 #[cfg(test)]
 mod tests {
-    use std::collections::BTreeSet;
-
     use super::*;
     use crate::room::Room;
     use crate::scenario::Scenario;
@@ -178,6 +217,27 @@ mod tests {
                     for process in [Process::Cut, Process::Blend, Process::Toast] {
                         assert_eq!(does(process, &room.quirks.exceptions), does(process, &[]), "{}", food.name());
                     }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_was_demonstrated_works() {
+        for seed in 0..10 {
+            let life = life(seed, 1);
+            assert!(!life.interlock.tools.is_empty());
+            for demonstration in demonstrations(0) {
+                let Scene::Snapshot(first) = demonstration.recording.first else { panic!("a snapshot") };
+                let scenario = Scenario {
+                    state: Some(first),
+                    exceptions: life.exceptions.clone(),
+                    interlocks: vec![life.interlock.clone()],
+                    ..Scenario::default()
+                };
+                let mut room = Room::build(&scenario, 0).expect("a room");
+                for (action, _) in demonstration.recording.steps {
+                    assert_eq!(room.act(&action.call), Ok(()), "life {seed}, {}: {}", demonstration.name, action.call);
                 }
             }
         }
