@@ -51,9 +51,9 @@ impl Eq for Parts {}
 
 impl Parts {
     /// Adds what a source contributes, which is not there yet or is replaced.
-    fn insert(&mut self, id: SourceId, part: Arc<Observations>) {
-        match (self.by_source.insert(id, Arc::clone(&part)), self.sum.get_mut()) {
-            (None, Some(sum)) => Arc::make_mut(sum).merge(&part),
+    fn insert(&mut self, id: SourceId, part: &Arc<Observations>) {
+        match (self.by_source.insert(id, Arc::clone(part)), self.sum.get_mut()) {
+            (None, Some(sum)) => Arc::make_mut(sum).merge(part),
             (Some(_), _) => drop(self.sum.take()),
             (None, None) => {}
         }
@@ -109,7 +109,7 @@ impl FromIterator<(SourceId, Symbol, Observations)> for Evidence {
         for (id, name, observations) in all {
             if sources.get(&id).is_none_or(|known| name < known.name) {
                 sources.insert(id, Source { name, transitions: observations.transitions });
-                parts.insert(id, Arc::new(observations));
+                parts.insert(id, &Arc::new(observations));
             }
         }
         Self { sources, observed: Observed::BySource(parts) }
@@ -173,7 +173,7 @@ impl Evidence {
             for (id, source) in &other.sources {
                 if self.sources.get(id).is_none_or(|known| source.name < known.name) {
                     self.sources.insert(*id, source.clone());
-                    parts.insert(*id, Arc::clone(&others.by_source[id]));
+                    parts.insert(*id, &others.by_source[id]);
                 }
             }
             return Ok(shared);
@@ -225,5 +225,31 @@ impl Evidence {
         if !self.is_compact() {
             self.observed = Observed::Total(Box::new(self.sum().clone()));
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn part(digit: &str, name: &str, transitions: u64) -> (SourceId, Symbol, Observations) {
+        let id = digit.repeat(64).parse().unwrap_or_else(|_| panic!("an id"));
+        (id, name.into(), Observations { transitions, ..Observations::default() })
+    }
+
+    #[test]
+    fn the_kept_sum_is_the_sum() {
+        let (one, other) = (part("1", "one", 2), part("2", "other", 3));
+        let mut evidence: Evidence = [one.clone()].into_iter().collect();
+        assert_eq!(evidence.total().transitions, 2);
+        let before = evidence.clone();
+        evidence.merge(&[other.clone()].into_iter().collect()).expect("of other sources");
+        assert_eq!((evidence.total().transitions, before.total().transitions), (5, 2));
+        assert_eq!(evidence, [one.clone(), other.clone()].into_iter().collect());
+        evidence.merge(&[(one.0, "a name before".into(), one.2.clone())].into_iter().collect()).expect("the same");
+        assert_eq!(evidence.total().transitions, 5, "what both hold counts once");
+        evidence.take_out(one.0).expect("it is kept by source");
+        assert_eq!(evidence.total().transitions, 3);
+        assert_eq!(evidence, [other].into_iter().collect());
     }
 }
