@@ -13,11 +13,12 @@ use typelift_model::{ActionModel, Budget, Goal, GoalError, GroundAtom, Observati
 use typelift_world::Verdict;
 
 use crate::account::{Account, Ending, StoppedAt};
-use crate::blame::Blame;
+use crate::blame::{Blame, BlameRule};
 use crate::event::{Event, Observer};
 use crate::execution::{Execution, Steps};
 use crate::experience::Experience;
 use crate::options::Options;
+use crate::outlook::{Outlook, Outlooks};
 use crate::propose::{Proposal, ProposeError};
 use crate::turn::{Command, CommandId, Input};
 
@@ -81,6 +82,8 @@ pub struct Episode {
     pub(crate) options: Options,
     pub(crate) budget: Budget,
     pub(crate) experience: Experience,
+    /// What is believed of the actions, when it was planned last.
+    pub(crate) outlooks: Outlooks,
     /// The number of this task in the experience.
     pub(crate) task: u64,
     /// The instance of the world that names belong to; unnamed if it was not said.
@@ -117,6 +120,7 @@ impl Episode {
             budget,
             task: experience.begin_task(),
             experience,
+            outlooks: Outlooks::default(),
             phase: Phase::New,
             standing: CommandId::default(),
             state: State::default(),
@@ -144,6 +148,16 @@ impl Episode {
     pub(crate) fn reconsider(&mut self) {
         let blame = Blame { rule: self.options.blame, model: &self.model, evidence: &self.evidence };
         self.experience.reconsider(&blame);
+    }
+
+    /// What is believed of the actions by now, in the current state; nothing by the paper's rule.
+    pub(crate) fn look_ahead(&mut self) {
+        let Self { model, evidence, experience, .. } = &*self;
+        let outlook = Outlook { model, evidence, experience, task: self.task };
+        self.outlooks = match self.options.blame {
+            BlameRule::Belief => outlook.of(&self.state, &self.instance, self.options.risk),
+            BlameRule::Paper => Outlooks::default(),
+        };
     }
 
     /// What was tried so far, in this task and the ones before it.

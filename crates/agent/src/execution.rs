@@ -7,6 +7,8 @@ use typelift_imagine::Loosening;
 use typelift_model::{ActionModel, ActionSchema, GroundAction, Plan, State, Step, Symbol};
 use typelift_plan::Restrictions;
 
+use crate::outlook::Need;
+use crate::risk::Risk;
 use crate::suspect::Condition;
 
 /// On what terms a plan is made.
@@ -25,6 +27,12 @@ pub(crate) struct Terms {
     /// The preconditions that are done without.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(crate) loosened: Vec<Loosening>,
+    /// What actions as good as need besides their preconditions.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) needs: Vec<Need>,
+    /// How risky steps are.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) risks: Vec<Risk>,
 }
 
 /// A plan that is proposed or carried out.

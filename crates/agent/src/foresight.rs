@@ -78,7 +78,7 @@ impl Episode {
         restrictions.calls.extend(calls.iter().cloned());
         let (task, options) = self.asked(&execution.terms, &self.state);
         let model = with_conditions(&self.model, &execution.terms.conditions);
-        let proposal = attempt(&model, &task, &restrictions, &options, &execution.terms.loosened, budget)?;
+        let proposal = attempt(&model, &task, &restrictions, &options, &execution.terms.loosened, &[], budget)?;
         Ok(match proposal.outcome {
             Outcome::Solved(plan) => Some((plan, proposal.model)),
             _ => None,

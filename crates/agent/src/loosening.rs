@@ -49,7 +49,7 @@ pub fn propose(
     options: &Options,
     budget: &Budget,
 ) -> Result<Proposal, ProposeError> {
-    let proposal = attempt(model, task, restrictions, options, &[], budget)?;
+    let proposal = attempt(model, task, restrictions, options, &[], &[], budget)?;
     if proposal.outcome != Outcome::Unsolvable || !options.loosens() {
         return Ok(proposal);
     }
@@ -123,7 +123,7 @@ fn cheapest(question: Question<'_>) -> Result<Option<Proposal>, ProposeError> {
 /// The proposal that does without these, if it has a plan.
 fn solved(question: Question<'_>, loosened: &[Loosening]) -> Result<Option<Proposal>, ProposeError> {
     let Question { model, task, restrictions, options, budget } = question;
-    let proposal = attempt(model, task, restrictions, options, loosened, budget)?;
+    let proposal = attempt(model, task, restrictions, options, loosened, &[], budget)?;
     Ok(matches!(proposal.outcome, Outcome::Solved(_)).then_some(proposal))
 }
 

@@ -24,6 +24,8 @@ pub struct Options {
     pub retries: Option<u32>,
     /// Whom a failure is blamed on.
     pub blame: BlameRule,
+    /// How many steps of a detour it is worth to be e times as likely to succeed; 0 ignores risk.
+    pub risk: u32,
     /// Plans proposed at most.
     pub max_proposals: u64,
     /// The instance of the world that names belong to, whatever the world says.
@@ -43,6 +45,7 @@ impl Default for Options {
             restart: false,
             retries: None,
             blame: BlameRule::default(),
+            risk: 10,
             max_proposals: 12,
             instance: None,
             ignores_case: false,

@@ -1,5 +1,6 @@
 //! What an episode proposes: a plan from where it is, if need be by a last resort, or another one.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use typelift_model::{ActionModel, Budget, Plan, State, Stop, Task};
@@ -11,6 +12,7 @@ use crate::event::{Event, Observer, WhyNoOther};
 use crate::execution::{Execution, Terms, steps};
 use crate::loosening::{propose, propose_loosened};
 use crate::options::Options;
+use crate::outlook::{Outlooks, with_needs};
 use crate::propose::{Proposal, ProposeError, attempt, loosened_and_widened};
 use crate::resort::{CountedExclusions, Resort};
 use crate::suspect::with_conditions;
@@ -38,6 +40,7 @@ impl Episode {
             return Ok(self.end(Ending::ProposalLimit(self.options.max_proposals), observer));
         }
         self.reconsider();
+        self.look_ahead();
         let Planned { mut proposal, terms, resort } = match self.plan_with_last_resorts(observer) {
             Ok(planned) => planned,
             Err(ProposeError::Stopped(stop)) => return Ok(self.end(Ending::Stopped(stop), observer)),
@@ -227,8 +230,7 @@ impl Episode {
         }
         observer.event(&Event::PlanningStarted { proposal: self.account.proposals + 1 });
         let (task, options) = self.asked(terms, &self.state);
-        let model = with_conditions(&self.model, &terms.conditions);
-        let planned = propose_loosened(&model, &task, &terms.restrictions, &options, &self.budget);
+        let planned = propose_loosened(&self.model_on(terms), &task, &terms.restrictions, &options, &self.budget);
         let found = planned.as_ref().ok().and_then(Option::as_ref);
         let report = found.map(Proposal::report).unwrap_or_default();
         observer.event(&planning_ended(report, found, found.is_some()));
@@ -266,7 +268,10 @@ impl Episode {
     fn terms(&self, counted: CountedExclusions) -> Terms {
         let (restrictions, conditions) = self.experience.avoided(&self.instance, &self.state, counted);
         let elsewhere = counted == CountedExclusions::Elsewhere;
-        Terms { restrictions, conditions, relaxed: false, elsewhere, loosened: Vec::new() }
+        let Outlooks { risks, needs } = self.outlooks.clone();
+        // What is only as good as needed is given up with the first guesses.
+        let needs = if counted == CountedExclusions::All { needs } else { Vec::new() };
+        Terms { restrictions, conditions, relaxed: false, elsewhere, loosened: Vec::new(), needs, risks }
     }
 
     /// Plans, and tells of it.
@@ -293,8 +298,7 @@ impl Episode {
         let terms = self.terms(self.account.resorts.counted());
         let (task, options) = self.asked(&terms, &self.state);
         let options = Options { imagine: Some(imagine), ..options };
-        let model = with_conditions(&self.model, &terms.conditions);
-        match propose(&model, &task, &terms.restrictions, &options, budget)?.outcome {
+        match propose(&self.model_on(&terms), &task, &terms.restrictions, &options, budget)?.outcome {
             Outcome::Solved(plan) => Ok(Some(plan)),
             _ => Ok(None),
         }
@@ -309,20 +313,25 @@ impl Episode {
     /// Plans on these terms from the current state.
     fn plan_on(&self, terms: &Terms) -> Result<Proposal, ProposeError> {
         let (task, options) = self.asked(terms, &self.state);
-        let model = with_conditions(&self.model, &terms.conditions);
+        let model = self.model_on(terms);
         let mut budget = self.budget.clone();
         if terms.elsewhere {
             budget.expansions = Some(budget.expansions.unwrap_or(ELSEWHERE).min(ELSEWHERE));
         }
-        attempt(&model, &task, &terms.restrictions, &options, &terms.loosened, &budget)
+        attempt(&model, &task, &terms.restrictions, &options, &terms.loosened, &terms.risks, &budget)
     }
 
     /// The model that a plan on these terms for this state is made with.
     pub(crate) fn planned_on(&self, terms: &Terms, state: &State) -> Result<Arc<ActionModel>, ProposeError> {
         let (task, options) = self.asked(terms, state);
-        let model = with_conditions(&self.model, &terms.conditions);
+        let model = self.model_on(terms);
         let restrictions = &terms.restrictions;
         Ok(loosened_and_widened(&model, &task, restrictions, &options, &terms.loosened, &self.budget)?.model)
+    }
+
+    /// The model with what keeps actions from being used on these terms.
+    fn model_on(&self, terms: &Terms) -> Cow<'_, ActionModel> {
+        with_needs(with_conditions(&self.model, &terms.conditions), &terms.needs)
     }
 
     pub(crate) fn asked(&self, terms: &Terms, state: &State) -> (Task, Options) {

@@ -1,14 +1,16 @@
 //! One proposal: imagine if allowed, plan, and have the plan checked.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use thiserror::Error;
 use typelift_check::{Invalid, check};
 use typelift_imagine::{Imagination, Loosening, imagine_from};
-use typelift_model::{ActionModel, Budget, GoalTypeMismatch, Plan, Stop, Task, strict};
+use typelift_model::{ActionModel, Budget, GoalTypeMismatch, GroundAtom, Plan, Stop, Task, strict};
 use typelift_plan::{Explanation, ExternalFailure, Outcome, Planner, Reachable, Report, Restrictions};
 
 use crate::options::Options;
+use crate::risk::{Risk, risk_of, unweighed, weighed};
 
 /// What planning came to.
 #[derive(Debug)]
@@ -30,34 +32,55 @@ pub struct Proposal {
 enum Searched {
     /// The own planner, which can go on.
     Own(Box<Planner>),
+    /// The same, with risks as costs.
+    Weighed(Box<Weighed>),
     /// An external planner: the model and the task that it was asked, with the restrictions in them.
     External(Box<(ActionModel, Task)>),
 }
 
+/// The own planner, of a model and a task with risks as costs.
+#[derive(Debug)]
+struct Weighed {
+    planner: Planner,
+    model: ActionModel,
+    /// The values of the functions that costs mention, without risks.
+    values: BTreeMap<GroundAtom, u32>,
+}
+
 impl Proposal {
+    /// The own planner, if it planned.
+    fn planner(&self) -> Option<&Planner> {
+        match &self.searched {
+            Searched::Own(planner) => Some(planner),
+            Searched::Weighed(weighed) => Some(&weighed.planner),
+            Searched::External(_) => None,
+        }
+    }
+
+    fn planner_mut(&mut self) -> Option<&mut Planner> {
+        match &mut self.searched {
+            Searched::Own(planner) => Some(planner),
+            Searched::Weighed(weighed) => Some(&mut weighed.planner),
+            Searched::External(_) => None,
+        }
+    }
+
     /// The counts of grounding and search; nothing if an external planner planned.
     pub fn report(&self) -> Report {
-        match &self.searched {
-            Searched::Own(planner) => {
-                let report = planner.report();
-                Report { groundings: self.groundings + report.groundings, ..report }
-            }
-            Searched::External(_) => Report { groundings: self.groundings, ..Report::default() },
-        }
+        let report = self.planner().map(Planner::report).unwrap_or_default();
+        Report { groundings: self.groundings + report.groundings, ..report }
     }
 
     /// Why there is no plan, in the words of the text that the model was made from.
     pub fn explain(&self) -> Explanation<String> {
-        match &self.searched {
-            Searched::Own(planner) => planner.explain().in_words(&self.model),
-            Searched::External(_) => Explanation::ToldByPlanner,
-        }
+        self.planner().map_or(Explanation::ToldByPlanner, |planner| planner.explain().in_words(&self.model))
     }
 
     /// Where the goal goes beyond the types of which the model has its predicates: worth saying if there is no plan.
     pub fn goal_type_mismatches(&self) -> Vec<GoalTypeMismatch> {
         let task = match &self.searched {
             Searched::Own(planner) => planner.task(),
+            Searched::Weighed(weighed) => weighed.planner.task(),
             Searched::External(asked) => &asked.1,
         };
         task.goal.type_mismatches(&task.init, &self.model)
@@ -68,21 +91,18 @@ impl Proposal {
     /// # Errors
     /// [`ProposeError::Invalid`] if the planner's plan is not one.
     pub fn next_plan(&mut self, budget: &Budget) -> Result<Outcome, ProposeError> {
-        let outcome = match &mut self.searched {
-            Searched::Own(planner) => planner.next_plan(budget),
-            Searched::External(_) => Outcome::NoMorePlans,
-        };
+        let outcome = self.planner_mut().map_or(Outcome::NoMorePlans, |planner| planner.next_plan(budget));
         self.checked(outcome)
     }
 
-    /// A plan cheaper than `cost`, checked.
+    /// A plan cheaper than `cost`, checked. Where risks are costs, none is.
     ///
     /// # Errors
     /// [`ProposeError::Invalid`] if the planner's plan is not one.
     pub fn better_plan(&mut self, cost: u64, budget: &Budget) -> Result<Outcome, ProposeError> {
         let outcome = match &mut self.searched {
             Searched::Own(planner) => planner.better_plan(cost, budget),
-            Searched::External(_) => Outcome::NoMorePlans,
+            Searched::Weighed(_) | Searched::External(_) => Outcome::NoMorePlans,
         };
         self.checked(outcome)
     }
@@ -92,12 +112,22 @@ impl Proposal {
         match &self.searched {
             Searched::Own(planner) => check(&self.model, planner.task(), plan)
                 .map_err(|error| ProposeError::Invalid { plan: plan.clone(), error })?,
+            Searched::Weighed(weighed) => {
+                check(&weighed.model, weighed.planner.task(), plan)
+                    .map_err(|error| ProposeError::Invalid { plan: plan.clone(), error })?;
+                return Ok(Outcome::Solved(unweighed(plan, &self.model, &weighed.values)));
+            }
             Searched::External(asked) => check(&asked.0, &asked.1, plan)
                 .map_err(|error| ProposeError::ExternalPlan { plan: plan.clone(), error })?,
         };
         Ok(outcome)
     }
 }
+
+/// A plan that is as risky as one more step would cost is good enough; else less risky ones are looked for, with so many
+/// expansions.
+const NOTABLE: u64 = 1_000;
+const LESS_RISKY: u64 = 500;
 
 /// Why there is no answer.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -136,15 +166,24 @@ pub(crate) fn attempt(
     restrictions: &Restrictions,
     options: &Options,
     loosened: &[Loosening],
+    risks: &[Risk],
     budget: &Budget,
 ) -> Result<Proposal, ProposeError> {
     let Widened { model, imagination, reachable, groundings } =
         loosened_and_widened(model, task, restrictions, options, loosened, budget)?;
     let (searched, outcome) = match &options.planner {
-        None => {
+        None if risks.is_empty() => {
             let mut planner = Planner::starting_from(reachable, &model, task, restrictions, &options.plan, budget)?;
             let outcome = planner.next_plan(budget);
             (Searched::Own(Box::new(planner)), outcome)
+        }
+        None => {
+            let (risky, with_risks) = weighed(&model, task, risks);
+            // Objects that were alike are so no longer where one is riskier.
+            let mut planner = Planner::new(&risky, &with_risks, restrictions, &options.plan, budget)?;
+            let outcome = least_risky(&mut planner, |plan| unweighed(plan, &model, &task.values), budget);
+            let weighed = Weighed { planner, model: risky, values: task.values.clone() };
+            (Searched::Weighed(Box::new(weighed)), outcome)
         }
         Some(planner) => {
             let asked = restrictions.compiled_into(&model, task);
@@ -152,9 +191,25 @@ pub(crate) fn attempt(
             (Searched::External(Box::new(asked)), outcome)
         }
     };
-    let proposal = Proposal { model, imagination, groundings, searched, outcome };
-    proposal.checked(proposal.outcome.clone())?;
+    let mut proposal = Proposal { model, imagination, groundings, searched, outcome };
+    proposal.outcome = proposal.checked(proposal.outcome.clone())?;
     Ok(proposal)
+}
+
+/// The first plan, or a less risky one if it is found soon.
+fn least_risky(planner: &mut Planner, unweighed: impl Fn(&Plan) -> Plan, budget: &Budget) -> Outcome {
+    let first = planner.next_plan(budget);
+    let Outcome::Solved(mut best) = first else { return first };
+    let begun = planner.report().expansions;
+    while risk_of(&best, &unweighed(&best)) > NOTABLE {
+        let spent = planner.report().expansions - begun;
+        let expansions = LESS_RISKY.saturating_sub(spent);
+        match planner.better_plan(best.cost(), &Budget { expansions: Some(expansions), ..budget.clone() }) {
+            Outcome::Solved(better) => best = better,
+            _ => break,
+        }
+    }
+    Outcome::Solved(best)
 }
 
 /// A model to plan a task with.

@@ -15,6 +15,7 @@ use crate::episode::{Episode, Phase};
 use crate::execution::{Execution, Steps, Terms};
 use crate::experience::Experience;
 use crate::options::Options;
+use crate::outlook::Outlooks;
 use crate::propose::ProposeError;
 use crate::turn::CommandId;
 
@@ -267,6 +268,7 @@ impl Episode {
             options,
             budget,
             experience: saved.experience,
+            outlooks: Outlooks::default(),
             task: saved.task,
             instance: saved.instance,
             phase: saved.phase,

@@ -1,6 +1,6 @@
 //! What is believed of one action: the blame of its failures, shared.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use typelift_model::{ActionModel, ActionSchema, Hierarchy, LiftedAtom, Observations, TypeId};
 
@@ -71,7 +71,8 @@ impl ActionBelief {
         belief.believe_types(hierarchy);
         let failures: Vec<Outcome> = belief.outcomes.iter().filter(|outcome| !outcome.worked).cloned().collect();
         let mut own = vec![BTreeMap::new(); failures.len()];
-        for _ in 0..ROUNDS {
+        let rounds = if failures.is_empty() { 0 } else { ROUNDS };
+        for _ in 0..rounds {
             let shared = failures.iter().zip(&own);
             own = shared.map(|(failure, own)| halfway(own, belief.shares(hierarchy, failure, own))).collect();
             belief.blamed = BTreeMap::new();
@@ -215,6 +216,33 @@ impl ActionBelief {
         causes
     }
 
+    /// What speaks against objects of these types in any place of the action, and against those that failed together, each
+    /// with its odds. Nothing speaks against what worked, as long as nothing failed.
+    pub fn doubts(&self, hierarchy: &Hierarchy, types: &BTreeSet<TypeId>) -> Vec<(Cause, f64)> {
+        let nothing_said = BTreeMap::new();
+        let mut doubts = Vec::new();
+        for at in 0..self.covers.len() {
+            for ty in types {
+                let mut alone = vec![None; self.covers.len()];
+                alone[at] = Some(*ty);
+                doubts.extend(self.causes(hierarchy, &alone, [], [], &nothing_said));
+            }
+        }
+        let failures = self.outcomes.iter().filter(|outcome| !outcome.worked);
+        let causes = failures.flat_map(|failure| self.causes_of(hierarchy, failure, &nothing_said));
+        let together: BTreeMap<Cause, f64> = causes.filter(|(cause, _)| matches!(cause, Cause::Together(_))).collect();
+        doubts.extend(together);
+        doubts
+    }
+
+    /// The literals that are no preconditions and yet hold nearly always where the action works, with the odds that each is
+    /// needed.
+    pub fn needed(&self, schema: &ActionSchema) -> Vec<(LiftedAtom, f64)> {
+        let is_stated = |atom: &LiftedAtom| schema.preconditions.iter().any(|literal| literal.atom == *atom);
+        let odds = self.literals.iter().filter(|(atom, _)| !is_stated(atom));
+        odds.map(|(atom, before)| (atom.clone(), odds_of_missing(*before, &self.blamed, atom))).collect()
+    }
+
     /// What may have caused a failure, chance apart.
     fn causes_of(&self, hierarchy: &Hierarchy, failure: &Outcome, own: &BTreeMap<Cause, f64>) -> Vec<(Cause, f64)> {
         let held = failure.held.iter().filter(|atom| self.absent.contains_key(*atom)).cloned();
@@ -286,6 +314,11 @@ fn halfway(before: &BTreeMap<Cause, f64>, mut now: BTreeMap<Cause, f64>) -> BTre
         *share = (*share + self::share(before, cause)) / 2.0;
     }
     now
+}
+
+/// The odds that a literal is needed, with the blame that it has.
+fn odds_of_missing(before: f64, blamed: &BTreeMap<Cause, f64>, atom: &LiftedAtom) -> f64 {
+    odds(before - share(blamed, &Cause::Missing(atom.clone())) * CHANCE.ln())
 }
 
 fn share(shares: &BTreeMap<Cause, f64>, cause: &Cause) -> f64 {

@@ -87,6 +87,10 @@ pub(crate) struct Run {
     /// Whom failures are blamed on
     #[arg(long, value_name = "RULE", default_value = "belief")]
     blame: Blame,
+    /// How many steps of a detour it is worth to be e times as likely to succeed, once anything failed; 0 ignores risk
+    #[arg(long, value_name = "R", default_value_t = Options::default().risk, allow_negative_numbers = true,
+        value_parser = clap::value_parser!(u32).range(0..=1000))]
+    risk: u32,
     /// Try a failed step again N times [default: 1, with --restart 0]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     retries: Option<u32>,
@@ -421,6 +425,7 @@ impl Run {
                 Blame::Paper => BlameRule::Paper,
             },
             retries: self.retries,
+            risk: self.risk,
             max_proposals: self.max_proposals,
             instance: self.instance.as_deref().map(Symbol::new),
             ..self.planning.agent_options(is_given)?

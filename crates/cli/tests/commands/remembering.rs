@@ -52,7 +52,7 @@ fn what_failed_in_one_process_is_not_tried_in_the_next() {
     assert_eq!(outcome(&run()), (true, Some(3), Some(2)), "two tools are out of order");
     assert_eq!(outcome(&run()), (true, Some(1), Some(0)));
     // In another place things of these names are other things.
-    let elsewhere = folder.run(&format!("run {fault} --kitchen --imagine --memory m --json --instance there"));
+    let elsewhere = folder.run(&format!("run {fault} --kitchen --imagine --memory m --json --instance there --risk 0"));
     assert_ne!(outcome(&elsewhere).2, Some(0), "{elsewhere}");
 }
 

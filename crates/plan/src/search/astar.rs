@@ -38,6 +38,8 @@ pub(crate) struct AStar {
     memory_len: usize,
     /// Whether h is never more than the rest costs.
     is_admissible: bool,
+    /// What one of h is worth: where it counts steps, as much as the cheapest costs.
+    step: u64,
     registry: Registry,
     memories: Vec<u32>,
     nodes: Vec<Node>,
@@ -56,7 +58,9 @@ pub(crate) struct AStar {
 impl AStar {
     pub(crate) fn new(space: Arc<Space>, heuristic: Box<dyn Heuristic>, is_admissible: bool) -> Self {
         let variables = space.task.domains.len();
+        let cheapest = space.task.actions.costs.iter().copied().min().map_or(1, |cost| u64::from(cost.max(1)));
         Self {
+            step: if is_admissible { 1 } else { cheapest },
             memory_len: heuristic.memory_len(),
             registry: Registry::new(&space.task.domains),
             space,
@@ -110,7 +114,7 @@ impl AStar {
         self.memories.extend_from_slice(&memory);
         let next = self.last[state.index()].replace(id);
         self.nodes.push(Node { state, g, came_by, superseded: false, next });
-        self.open.push(Reverse((g + u64::from(h), h, id)));
+        self.open.push(Reverse((g + u64::from(h) * self.step, h, id)));
     }
 
     fn node(&self, id: NodeId) -> &Node {
