@@ -1,11 +1,27 @@
 //! What can be to blame for a failure.
 
+use serde::{Deserialize, Serialize};
 use typelift_model::{LiftedAtom, Symbol, TypeId};
-
-use crate::judgement::Culprit;
 
 /// Two parameters and the types there.
 pub type Pair = ((usize, TypeId), (usize, TypeId));
+
+/// What may be to blame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Culprit {
+    /// An object, in its instance of the world.
+    Object,
+    /// A type in its place.
+    Type,
+    /// Two types together.
+    Pair,
+    /// A literal that does not hold; after `not` one that holds.
+    Literal,
+    /// Nothing that is known.
+    Chance,
+}
 
 /// Something that can be to blame for a failure of an action.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]

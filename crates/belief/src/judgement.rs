@@ -1,12 +1,12 @@
 //! What is read off for a call: how likely it works, by which action, and what speaks against it.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use typelift_model::{
     ActionModel, ActionSchema, GroundAtom, GroundCall, Hierarchy, LearnedModel, LiftedAtom, State, Symbol, Term, TypeId,
 };
 
 use crate::action::ActionBelief;
-use crate::cause::Cause;
+use crate::cause::{Cause, Culprit};
 use crate::unmet::unmet;
 
 /// A call whose fate is asked.
@@ -19,23 +19,6 @@ pub struct Question<'q> {
     /// Where it is used; without a state every literal counts as true, as an unknown one does, and one of an object that is
     /// not there.
     pub state: Option<&'q State>,
-}
-
-/// What may be to blame.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case")]
-pub enum Culprit {
-    /// An object, in its instance of the world.
-    Object,
-    /// A type in its place.
-    Type,
-    /// Two types together.
-    Pair,
-    /// A literal that does not hold; after `not` one that holds.
-    Literal,
-    /// Nothing that is known.
-    Chance,
 }
 
 /// Something that speaks against a call.

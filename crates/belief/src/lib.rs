@@ -36,9 +36,9 @@ mod types;
 mod unmet;
 
 pub use action::ActionBelief;
-pub use cause::{Cause, Pair};
+pub use cause::{Cause, Culprit, Pair};
 pub use deed::{Deed, Participant, Tried};
-pub use judgement::{Belief, Culprit, Judgement, Question, Suspect};
+pub use judgement::{Belief, Judgement, Question, Suspect};
 
 /// How often something happens that nothing explains.
 pub const CHANCE: f64 = 0.02;

@@ -6,7 +6,6 @@ use serde::{Deserialize, Serialize};
 use typelift_model::Symbol;
 
 use crate::kind::{ItemKind, StationKind};
-use crate::room::{Item, Room};
 
 /// A food that a tool does nothing to, though it does to others like it: `{"food":"lettuce","tool":"cutboard"}`. Both are
 /// types. The tool takes and gives the food as any other.
@@ -48,17 +47,4 @@ pub(crate) struct Quirks {
     pub(crate) exceptions: Vec<(ItemKind, StationKind)>,
     /// By station: those that do nothing, and the one in which something lies.
     pub(crate) interlocks: Vec<(Vec<usize>, usize)>,
-}
-
-impl Room {
-    /// The interlock that keeps a tool from doing anything now.
-    pub(crate) fn interlock_of(&self, tool: usize) -> Option<&(Vec<usize>, usize)> {
-        let mut interlocks = self.quirks.interlocks.iter();
-        interlocks.find(|(tools, loaded)| tools.contains(&tool) && !self.stations[*loaded].content.is_empty())
-    }
-
-    /// Whether the item is an exception to what the tool does.
-    pub(crate) fn is_exception(&self, tool: usize, item: &Item) -> bool {
-        self.quirks.exceptions.contains(&(item.kind, self.stations[tool].kind))
-    }
 }

@@ -92,6 +92,17 @@ impl Item {
 }
 
 impl Room {
+    /// The interlock that keeps a tool from doing anything now.
+    pub(crate) fn interlock_of(&self, tool: usize) -> Option<&(Vec<usize>, usize)> {
+        let mut interlocks = self.quirks.interlocks.iter();
+        interlocks.find(|(tools, loaded)| tools.contains(&tool) && !self.stations[*loaded].content.is_empty())
+    }
+
+    /// Whether the item is an exception to what the tool does.
+    pub(crate) fn is_exception(&self, tool: usize, item: &Item) -> bool {
+        self.quirks.exceptions.contains(&(item.kind, self.stations[tool].kind))
+    }
+
     /// The name of the one who acts: argument 0 of every call.
     pub fn agent_name(&self) -> &Symbol {
         &self.agent.name
