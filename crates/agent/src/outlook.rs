@@ -46,10 +46,10 @@ pub(crate) struct Need {
 
 impl Outlook<'_> {
     /// How risky the actions are with what there is in a state of an instance, and what they need: nothing is, as long as
-    /// nothing ever failed. In time of the actions times the types of the hierarchy, and of the failures.
+    /// nothing ever failed, or if risk weighs nothing. In time of the actions times the types of the hierarchy, and of the failures.
     pub(crate) fn of(&self, state: &State, instance: &Symbol, weight: u32) -> Outlooks {
         let mut outlooks = Outlooks::default();
-        if self.experience.failures().is_empty() && self.evidence.negatives.is_empty() {
+        if weight == 0 || self.experience.failures().is_empty() && self.evidence.negatives.is_empty() {
             return outlooks;
         }
         let nobody = BTreeSet::new();
@@ -57,9 +57,7 @@ impl Outlook<'_> {
         let types: BTreeSet<TypeId> = state.objects.values().copied().collect();
         for schema in &self.model.actions {
             let belief = ActionBelief::new(schema, self.evidence, &run, self.model);
-            if weight > 0 {
-                outlooks.risks.extend(self.risks(schema, &belief, &types, &run, instance, weight));
-            }
+            outlooks.risks.extend(self.risks(schema, &belief, &types, &run, instance, weight));
             outlooks.needs.extend(needs(schema, &belief));
         }
         outlooks

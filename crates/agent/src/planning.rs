@@ -214,11 +214,14 @@ impl Episode {
             self.account.resorts.tried(resort, None);
             in_vain.push(terms);
         }
-        if proposal.outcome == Outcome::Unsolvable
-            && let Some(loosened) = self.plan_loosened(&usual, observer)?
-        {
-            let terms = Terms { loosened: loosened.imagination.loosened.clone(), ..usual };
-            return Ok(Planned { proposal: loosened, terms, resort: None });
+        if proposal.outcome == Outcome::Unsolvable {
+            let mut terms = usual.clone();
+            // Who does without preconditions could do without what a failure asked for, and try the same again.
+            terms.restrictions.banned.extend(self.experience.bans(&self.instance).into_iter().map(|(ban, _)| ban));
+            if let Some(loosened) = self.plan_loosened(&terms, observer)? {
+                terms.loosened.clone_from(&loosened.imagination.loosened);
+                return Ok(Planned { proposal: loosened, terms, resort: None });
+            }
         }
         Ok(Planned { proposal, terms: usual, resort: None })
     }

@@ -10,7 +10,7 @@ use typelift_model::{ActionModel, Budget, GoalTypeMismatch, GroundAtom, Plan, St
 use typelift_plan::{Explanation, ExternalFailure, Outcome, Planner, Reachable, Report, Restrictions};
 
 use crate::options::Options;
-use crate::risk::{Risk, risk_of, unweighed, weighed};
+use crate::risk::{Risk, repriced, risk_of, weighed};
 
 /// What planning came to.
 #[derive(Debug)]
@@ -115,7 +115,7 @@ impl Proposal {
             Searched::Weighed(weighed) => {
                 check(&weighed.model, weighed.planner.task(), plan)
                     .map_err(|error| ProposeError::Invalid { plan: plan.clone(), error })?;
-                return Ok(Outcome::Solved(unweighed(plan, &self.model, &weighed.values)));
+                return Ok(Outcome::Solved(repriced(plan, &self.model, &weighed.values)));
             }
             Searched::External(asked) => check(&asked.0, &asked.1, plan)
                 .map_err(|error| ProposeError::ExternalPlan { plan: plan.clone(), error })?,
@@ -172,18 +172,16 @@ pub(crate) fn attempt(
     let Widened { model, imagination, reachable, groundings } =
         loosened_and_widened(model, task, restrictions, options, loosened, budget)?;
     let (searched, outcome) = match &options.planner {
-        None if risks.is_empty() => {
+        None => {
             let mut planner = Planner::starting_from(reachable, &model, task, restrictions, &options.plan, budget)?;
             let outcome = planner.next_plan(budget);
-            (Searched::Own(Box::new(planner)), outcome)
-        }
-        None => {
-            let (risky, with_risks) = weighed(&model, task, risks);
-            // Objects that were alike are so no longer where one is riskier.
-            let mut planner = Planner::new(&risky, &with_risks, restrictions, &options.plan, budget)?;
-            let outcome = least_risky(&mut planner, |plan| unweighed(plan, &model, &task.values), budget);
-            let weighed = Weighed { planner, model: risky, values: task.values.clone() };
-            (Searched::Weighed(Box::new(weighed)), outcome)
+            match &outcome {
+                Outcome::Solved(plan) if !risks.is_empty() => {
+                    less_risky(plan, &model, task, restrictions, options, risks, budget)
+                        .unwrap_or((Searched::Own(Box::new(planner)), outcome))
+                }
+                _ => (Searched::Own(Box::new(planner)), outcome),
+            }
         }
         Some(planner) => {
             let asked = restrictions.compiled_into(&model, task);
@@ -196,20 +194,39 @@ pub(crate) fn attempt(
     Ok(proposal)
 }
 
-/// The first plan, or a less risky one if it is found soon.
-fn least_risky(planner: &mut Planner, unweighed: impl Fn(&Plan) -> Plan, budget: &Budget) -> Outcome {
-    let first = planner.next_plan(budget);
-    let Outcome::Solved(mut best) = first else { return first };
-    let begun = planner.report().expansions;
-    while risk_of(&best, &unweighed(&best)) > NOTABLE {
-        let spent = planner.report().expansions - begun;
-        let expansions = LESS_RISKY.saturating_sub(spent);
-        match planner.better_plan(best.cost(), &Budget { expansions: Some(expansions), ..budget.clone() }) {
-            Outcome::Solved(better) => best = better,
-            _ => break,
-        }
+/// A plan that is less risky than this one, if it is found soon.
+fn less_risky(
+    plan: &Plan,
+    model: &ActionModel,
+    task: &Task,
+    restrictions: &Restrictions,
+    options: &Options,
+    risks: &[Risk],
+    budget: &Budget,
+) -> Option<(Searched, Outcome)> {
+    let (risky, with_risks) = weighed(model, task, risks);
+    let mut best = repriced(plan, &risky, &with_risks.values);
+    if risk_of(&best, plan) <= NOTABLE {
+        return None;
     }
-    Outcome::Solved(best)
+    let mut budget = Budget { expansions: Some(LESS_RISKY), ..budget.clone() };
+    let mut planner = Planner::new(&risky, &with_risks, restrictions, &options.plan, &budget).ok()?;
+    let mut found = None;
+    let mut outcome = planner.next_plan(&budget);
+    while let Outcome::Solved(plan) = &outcome {
+        if plan.cost() < best.cost() {
+            best.clone_from(plan);
+            found = Some(plan.clone());
+        }
+        budget.expansions = Some(LESS_RISKY.saturating_sub(planner.report().expansions));
+        if risk_of(&best, &repriced(&best, model, &task.values)) <= NOTABLE {
+            break;
+        }
+        outcome = planner.better_plan(best.cost(), &budget);
+    }
+    let plan = found?;
+    let weighed = Weighed { planner, model: risky, values: task.values.clone() };
+    Some((Searched::Weighed(Box::new(weighed)), Outcome::Solved(plan)))
 }
 
 /// A model to plan a task with.

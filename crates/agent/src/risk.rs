@@ -127,8 +127,8 @@ pub(crate) fn risk_of(plan: &Plan, unweighed: &Plan) -> u64 {
     plan.cost().saturating_sub(u64::from(STEP) * unweighed.cost())
 }
 
-/// The plan with what its steps cost without risks.
-pub(crate) fn unweighed(plan: &Plan, model: &ActionModel, values: &BTreeMap<GroundAtom, u32>) -> Plan {
+/// The plan with what its steps cost in another model and task of the same actions and objects.
+pub(crate) fn repriced(plan: &Plan, model: &ActionModel, values: &BTreeMap<GroundAtom, u32>) -> Plan {
     let mut plan = plan.clone();
     for step in &mut plan.steps {
         let cost = model.action(step.action.as_str()).and_then(|schema| schema.cost.of(&step.objects, values));
@@ -203,8 +203,8 @@ mod tests {
         let (board, knife) = (RiskOf::Type("board".into()), RiskOf::Type("knife".into()));
         let first = RiskOf::Object("board_1".into());
         assert_eq!(plan(&[]), ["cut(board_1, leek_1)"]);
-        assert_eq!(plan(&[risk(first.clone(), 0.1, 10)]), ["cut(board_2, leek_1)"], "another thing of its kind");
-        let kind = [risk(board.clone(), 0.2, 10), risk(first, 0.1, 10)];
+        assert_eq!(plan(&[risk(first.clone(), 0.2, 10)]), ["cut(board_2, leek_1)"], "another thing of its kind");
+        let kind = [risk(board.clone(), 0.2, 10), risk(first, 0.2, 10)];
         assert_eq!(plan(&kind), ["cut(knife_1, leek_1)"], "a thing of another kind");
         let both = |odds, weight| [risk(board.clone(), odds, weight), risk(knife.clone(), odds, weight)];
         let detour = ["send(leek_1)", "wait(leek_1)", "unpack(leek_1)"];

@@ -64,5 +64,5 @@ impl fmt::Display for Variant {
 /// is set back.
 pub fn paper_options(imagine: bool) -> Options {
     let plan = plan::Options { strategy: plan::Strategy::OrderedLandmarks, ..plan::Options::default() };
-    Options { imagine: imagine.then(imagine::Options::default), plan, restart: true, ..Options::default() }
+    Options { imagine: imagine.then(imagine::Options::default), plan, restart: true, risk: 0, ..Options::default() }
 }

@@ -14,8 +14,7 @@ use typelift_world::{
 const HEADER: &str = r#"{"format":"trace/1","task":"t","goal":["free(a)"],"recorder":"x"}"#;
 const STATE: &str = r#"{"state":{"objects":{"a":"block"},"atoms":["free(a)"]}}"#;
 const ACTION: &str = r#"{"action":{"name":"GO","args":["a"]},"executed":false,"reason":"stuck","t":1.5,"extra":{}}"#;
-const MEANT: &str =
-    r#"{"action":{"name":"GO","args":[]},"expected":{"action":"GO-block","args":["a"]},"verdict":"timed-out"}"#;
+const MEANT: &str = r#"{"action":{"name":"GO","args":[]},"expected":{"action":"GO-block","args":["a"],"adds":["on(a)"]},"verdict":"timed-out"}"#;
 
 fn parser() -> Parser {
     let hierarchy = Hierarchy::from_edges([("block", "object"), ("arm", "object")]).expect("a tree");
@@ -65,7 +64,7 @@ fn what_an_agent_meant_and_how_it_judged_is_read() {
     let error = refused(&[HEADER, STATE, &MEANT.replace("timed-out", "late"), STATE]);
     assert_eq!(
         error,
-        "a.jsonl:3:96: in `verdict`: expected one of `as-expected`, `nothing`, `partly`, `otherwise`, \
+        "a.jsonl:3:113: in `verdict`: expected one of `as-expected`, `nothing`, `partly`, `otherwise`, \
          `refused`, `timed-out`, found the unknown word `late`"
     );
 }
