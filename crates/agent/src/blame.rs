@@ -136,7 +136,7 @@ impl Blame<'_> {
 }
 
 /// The odds of what is settled, and of what is avoided in no case.
-const SETTLED: f64 = 19.0;
+pub(crate) const SETTLED: f64 = 19.0;
 const UNLIKELY: f64 = 0.03;
 
 /// Causes whose odds differ by less than this are about as likely.

@@ -8,12 +8,9 @@ use serde::{Deserialize, Serialize};
 use typelift_belief::{ActionBelief, Cause, Tried};
 use typelift_model::{ActionModel, ActionSchema, LiftedAtom, Literal, Observations, State, Symbol, TypeId};
 
-use crate::blame::all_tried;
+use crate::blame::{SETTLED, all_tried};
 use crate::experience::Experience;
 use crate::risk::{Risk, RiskOf};
-
-/// The odds of what is settled.
-const SETTLED: f64 = 19.0;
 
 /// From what is believed of a model's actions.
 #[derive(Debug, Clone, Copy)]

@@ -67,7 +67,7 @@ fn in_words(action: &TraceAction, expected: &Expected, verdict: Verdict, before:
     let absent = expected.adds.iter().filter(|atom| !after.holds(atom)).map(ToString::to_string);
     let still = expected.deletes.iter().filter(|atom| after.holds(atom)).map(|atom| format!("not {atom}"));
     let missed: Vec<String> = absent.chain(still).collect();
-    let owned = |atoms: &mut dyn Iterator<Item = &GroundAtom>| -> Vec<GroundAtom> { atoms.cloned().collect() };
-    let (added, deleted) = (owned(&mut before.added(after)), owned(&mut before.deleted(after)));
+    let added: Vec<GroundAtom> = before.added(after).cloned().collect();
+    let deleted: Vec<GroundAtom> = before.deleted(after).cloned().collect();
     failure_in_words(&action.call, StepResult::Tried(verdict), action.reason.as_deref(), &missed, &added, &deleted)
 }

@@ -1,5 +1,7 @@
 //! What was done last, episode by episode.
 
+use std::collections::BTreeSet;
+
 use rusqlite::Connection;
 use typelift_model::{LearnedModel, SourceId, Symbol};
 use typelift_world::Trace;
@@ -29,7 +31,7 @@ pub(crate) fn recent(
 ) -> Result<Vec<PastEpisode>, MemoryErrorKind> {
     let taken_back = taken_back(connection)?;
     let begun = list(connection, Wanted::Of(Kind::Begun))?;
-    let set_back: Vec<i64> = list(connection, Wanted::Of(Kind::Ended))?
+    let set_back: BTreeSet<i64> = list(connection, Wanted::Of(Kind::Ended))?
         .into_iter()
         .filter_map(|entry| match entry.content::<log::Ended>() {
             Ok(ended) if ended.how == log::SET_BACK => entry.episode,
