@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use typelift::learn::{self, Options, evidence_of, learn_evidence};
 use typelift::model::{Evidence, LearnedModel, SourceId, Symbol, Unexplained, did_you_mean, name_with_arity};
-use typelift::words::{TypeNote, count, missing_actor, unbounded_parameters};
+use typelift::words::{TypeNote, count, dropped_by_merging, missing_actor, unbounded_parameters};
 use typelift::world::{
     Dataset, FileError, LeftOut, MixedRelation, ObjectTypes, Parser, Repeated, TrajectoryContext, Unlisted,
     demonstrations_at, read_any_trace, write_file,
@@ -234,7 +234,8 @@ impl Learn {
         (model.domain, model.model.constants) = (domain, constants);
         model.declare(declared_predicates);
         let missing_actor = report.no_actor.as_ref().and_then(|why| missing_actor(why, actor_before.as_ref()));
-        let notes = missing_actor.into_iter().chain(unbounded_parameters(&model.model)).collect();
+        let dropped = dropped_by_merging(&model.model, &model.evidence.total());
+        let notes = missing_actor.into_iter().chain(unbounded_parameters(&model.model)).chain(dropped).collect();
         let changes = Changes::of(&dataset, &model.parse.by_arity);
         Ok(Learned { dataset, shown, type_warnings, known, model, report, notes, changes })
     }

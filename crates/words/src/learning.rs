@@ -1,11 +1,11 @@
 //! What learning could make nothing of, and where it went further than may have been meant.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Serialize;
-use typelift_model::{ActedOn, ActionModel, NoActor, Symbol, Unexplained};
+use typelift_model::{ActedOn, ActionModel, LiftedAtom, NoActor, Observations, Support, Symbol, Unexplained};
 
-use crate::action::types_met;
+use crate::action::{Written, individual_name, types_met};
 
 /// Why nothing was learned from a transition.
 pub fn why_unexplained(reason: Unexplained) -> &'static str {
@@ -59,6 +59,73 @@ pub fn unbounded_parameters(model: &ActionModel) -> Vec<TypeNote> {
         }
     }
     notes
+}
+
+/// What each generalized action no longer asks for though every one of the actions that it was merged from did: that two of its
+/// parameters have to do with each other. Each of those said so in an atom of its own, so none is left in what all have in
+/// common. In the order of the model's actions; in time of a look at the evidence of each.
+pub fn dropped_by_merging(model: &ActionModel, evidence: &Observations) -> Vec<TypeNote> {
+    let mut notes = Vec::new();
+    for action in &model.actions {
+        let support = action.provenance.support();
+        if support.len() < 2 {
+            continue;
+        }
+        let needs: BTreeSet<&LiftedAtom> = action.positive_preconditions().collect();
+        let lost: Vec<(BTreeSet<LiftedAtom>, u64)> =
+            support.iter().map(|one| lost(one, model, evidence, &needs)).collect();
+        let parameters = action.parameters.len() as u32;
+        let pairs = (0..parameters).flat_map(|one| (one + 1..parameters).map(move |other| (one, other)));
+        let unrelated: Vec<(u32, u32)> = pairs
+            .filter(|pair| !needs.iter().any(|atom| relates(atom, *pair)))
+            .filter(|pair| lost.iter().all(|(atoms, _)| atoms.iter().any(|atom| relates(atom, *pair))))
+            .collect();
+        let mut seen: BTreeMap<LiftedAtom, u64> = BTreeMap::new();
+        for (atoms, observations) in &lost {
+            for atom in atoms.iter().filter(|atom| unrelated.iter().any(|pair| relates(atom, *pair))) {
+                *seen.entry(atom.clone()).or_default() += observations;
+            }
+        }
+        if seen.is_empty() {
+            continue;
+        }
+        let written = Written { parameters: action.parameters.iter().collect() };
+        let names: BTreeSet<Symbol> = support.iter().map(|one| Symbol::from(individual_name(one, model))).collect();
+        let dropped =
+            seen.iter().map(|(atom, times)| Symbol::from(format!("{} ({times} of {times})", written.atom(atom))));
+        let dropped: Vec<Symbol> = dropped.collect();
+        let text = format!("merging {} dropped {}", joined(&names, "and"), joined(&dropped, "and"));
+        let met = unrelated
+            .iter()
+            .flat_map(|(one, other)| [types_met(action, *one as usize), types_met(action, *other as usize)]);
+        let met: BTreeSet<Symbol> = met.flatten().cloned().collect();
+        notes.push(TypeNote {
+            text,
+            action: Some(action.name.clone()),
+            parameter: None,
+            met: met.into_iter().collect(),
+        });
+    }
+    notes
+}
+
+/// What always held before the transitions of an individual action and is no longer needed, over the generalized action's
+/// parameters; and how many transitions these are.
+fn lost(
+    support: &Support,
+    model: &ActionModel,
+    evidence: &Observations,
+    needs: &BTreeSet<&LiftedAtom>,
+) -> (BTreeSet<LiftedAtom>, u64) {
+    let always = evidence.clusters.get(&*support.cluster).map(|cluster| cluster.states.always()).unwrap_or_default();
+    let known = always.iter().filter(|atom| model.predicates.contains_key(&atom.predicate));
+    let renamed = known.map(|atom| atom.renamed(&support.map));
+    (renamed.filter(|atom| !needs.contains(atom)).collect(), support.observations)
+}
+
+/// Whether an atom is about both of these parameters.
+fn relates(atom: &LiftedAtom, (one, other): (u32, u32)) -> bool {
+    atom.params().any(|parameter| parameter == one) && atom.params().any(|parameter| parameter == other)
 }
 
 /// Why there is no default actor, where that may come as a surprise: in itself, or since there was one `before`.

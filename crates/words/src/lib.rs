@@ -41,7 +41,7 @@ pub use difference::{
 pub use event::line;
 pub use given_up::given_up_notes;
 pub use inspection::{FindingView, InspectionView, TriedView, inspection_lines};
-pub use learning::{TypeNote, missing_actor, unbounded_parameters, why_unexplained};
+pub use learning::{TypeNote, dropped_by_merging, missing_actor, unbounded_parameters, why_unexplained};
 pub use plan::{PlanView, StepView, imagined_note, numbered_steps, plan_size, without_phrase};
 pub use text::{Role, Span, Text, count, places};
 pub use why::{CallQuestion, WhyView, why_lines};
