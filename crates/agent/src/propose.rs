@@ -1,12 +1,12 @@
 //! One proposal: imagine if allowed, plan, and have the plan checked.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use thiserror::Error;
 use typelift_check::{Invalid, check};
-use typelift_imagine::{Imagination, Loosening, imagine_from};
-use typelift_model::{ActionModel, Budget, GoalTypeMismatch, GroundAtom, Plan, Stop, Task, strict};
+use typelift_imagine::{Imagination, Loosening, contradicted, imagine_from};
+use typelift_model::{ActionModel, Budget, GoalTypeMismatch, GroundAtom, Plan, Stop, Symbol, Task, strict};
 use typelift_plan::{Explanation, ExternalFailure, Outcome, Planner, Reachable, Report, Restrictions};
 
 use crate::options::Options;
@@ -21,6 +21,8 @@ pub struct Proposal {
     pub imagination: Imagination,
     /// How often what can be reached was worked out before planning began.
     groundings: u64,
+    /// What was planned around.
+    restrictions: Restrictions,
     /// What was planned with.
     searched: Searched,
     /// How the search ended.
@@ -78,21 +80,32 @@ impl Proposal {
 
     /// Where the goal goes beyond the types of which the model has its predicates: worth saying if there is no plan.
     pub fn goal_type_mismatches(&self) -> Vec<GoalTypeMismatch> {
-        let task = match &self.searched {
-            Searched::Own(planner) => planner.task(),
-            Searched::Weighed(weighed) => weighed.planner.task(),
-            Searched::External(asked) => &asked.1,
-        };
+        let task = self.task();
         task.goal.type_mismatches(&task.init, &self.model)
     }
 
-    /// A further plan, checked. An external planner is asked only once.
+    /// The task, with what was written into it for the planner.
+    fn task(&self) -> &Task {
+        match &self.searched {
+            Searched::Own(planner) => planner.task(),
+            Searched::Weighed(weighed) => weighed.planner.task(),
+            Searched::External(asked) => &asked.1,
+        }
+    }
+
+    /// A further plan, checked, in which nothing that was learned contradicts what was imagined. An external planner is asked
+    /// only once.
     ///
     /// # Errors
     /// [`ProposeError::Invalid`] if the planner's plan is not one.
     pub fn next_plan(&mut self, budget: &Budget) -> Result<Outcome, ProposeError> {
-        let outcome = self.planner_mut().map_or(Outcome::NoMorePlans, |planner| planner.next_plan(budget));
-        self.checked(outcome)
+        loop {
+            let outcome = self.planner_mut().map_or(Outcome::NoMorePlans, |planner| planner.next_plan(budget));
+            let outcome = self.checked(outcome)?;
+            if self.contradicted(&outcome).is_empty() {
+                return Ok(outcome);
+            }
+        }
     }
 
     /// A plan cheaper than `cost`, checked. Where risks are costs, none is.
@@ -100,11 +113,22 @@ impl Proposal {
     /// # Errors
     /// [`ProposeError::Invalid`] if the planner's plan is not one.
     pub fn better_plan(&mut self, cost: u64, budget: &Budget) -> Result<Outcome, ProposeError> {
-        let outcome = match &mut self.searched {
-            Searched::Own(planner) => planner.better_plan(cost, budget),
-            Searched::Weighed(_) | Searched::External(_) => Outcome::NoMorePlans,
-        };
-        self.checked(outcome)
+        loop {
+            let outcome = match &mut self.searched {
+                Searched::Own(planner) => planner.better_plan(cost, budget),
+                Searched::Weighed(_) | Searched::External(_) => Outcome::NoMorePlans,
+            };
+            let outcome = self.checked(outcome)?;
+            if self.contradicted(&outcome).is_empty() {
+                return Ok(outcome);
+            }
+        }
+    }
+
+    /// The imagined actions of a plan that what was learned contradicts.
+    fn contradicted(&self, outcome: &Outcome) -> BTreeSet<Symbol> {
+        let Outcome::Solved(plan) = outcome else { return BTreeSet::new() };
+        contradicted(plan, &self.model, self.task(), &self.restrictions)
     }
 
     fn checked(&self, outcome: Outcome) -> Result<Outcome, ProposeError> {
@@ -156,7 +180,8 @@ pub enum ProposeError {
     },
 }
 
-/// Plans a task with a learned model, doing without these preconditions of it and no others.
+/// Plans a task with a learned model, doing without these preconditions of it and no others. Where the plan has an imagined
+/// step that what was learned contradicts, it plans again, and that action gives way.
 ///
 /// # Errors
 /// [`ProposeError`]
@@ -169,8 +194,31 @@ pub(crate) fn attempt(
     risks: &[Risk],
     budget: &Budget,
 ) -> Result<Proposal, ProposeError> {
-    let Widened { model, imagination, reachable, groundings } =
-        loosened_and_widened(model, task, restrictions, options, loosened, budget)?;
+    let mut giving_way = BTreeSet::new();
+    loop {
+        let mut widened = loosened_and_widened(model, task, restrictions, options, loosened, budget)?;
+        if !giving_way.is_empty() {
+            widened.give_way(model, options, &giving_way);
+        }
+        let proposal = planned(widened, task, restrictions, options, risks, budget)?;
+        let contradicted = proposal.contradicted(&proposal.outcome);
+        if contradicted.is_subset(&giving_way) {
+            return Ok(proposal);
+        }
+        giving_way.extend(contradicted);
+    }
+}
+
+/// Plans a task with such a model.
+fn planned(
+    widened: Widened,
+    task: &Task,
+    restrictions: &Restrictions,
+    options: &Options,
+    risks: &[Risk],
+    budget: &Budget,
+) -> Result<Proposal, ProposeError> {
+    let Widened { model, imagination, reachable, groundings } = widened;
     let (searched, outcome) = match &options.planner {
         None => {
             let mut planner = Planner::starting_from(reachable, &model, task, restrictions, &options.plan, budget)?;
@@ -189,7 +237,8 @@ pub(crate) fn attempt(
             (Searched::External(Box::new(asked)), outcome)
         }
     };
-    let mut proposal = Proposal { model, imagination, groundings, searched, outcome };
+    let restrictions = restrictions.clone();
+    let mut proposal = Proposal { model, imagination, groundings, restrictions, searched, outcome };
     proposal.outcome = proposal.checked(proposal.outcome.clone())?;
     Ok(proposal)
 }
@@ -242,6 +291,19 @@ pub struct Widened {
     groundings: u64,
 }
 
+impl Widened {
+    /// Has the imagined actions of these names give way to what was learned.
+    fn give_way(&mut self, model: &ActionModel, options: &Options, names: &BTreeSet<Symbol>) {
+        self.imagination.give_way(model, names);
+        self.model = Arc::new(applied(self.imagination.added_to(model), options));
+    }
+}
+
+/// The model as the options have it used.
+fn applied(model: ActionModel, options: &Options) -> ActionModel {
+    if options.strict { strict(&model) } else { model }
+}
+
 /// The model to plan a task with: with what is imagined for it under these restrictions, if the options allow that, and
 /// strict if they ask for it. In time of a copy of the model and, if actions may be imagined, of
 /// [imagining](typelift_imagine::imagine) them.
@@ -270,7 +332,7 @@ pub(crate) fn loosened_and_widened(
     loosened: &[Loosening],
     budget: &Budget,
 ) -> Result<Widened, Stop> {
-    let applied = |model: ActionModel| Arc::new(if options.strict { strict(&model) } else { model });
+    let applied = |model| Arc::new(applied(model, options));
     let nothing = Imagination::default();
     let own = applied(nothing.added_to(model));
     let Some(imagining) = &options.imagine else {

@@ -2,7 +2,13 @@
 //!
 //! A call has one outcome. Where a learned action can be used that has the same call, to the last object, and predicts something
 //! else, its prediction rests on what was seen, and the imagined one is contradicted before it is tried: whoever walks with a
-//! bear in hand takes the bear along, and no pawn that stands by. Only what a call does not name can be imagined so.
+//! bear in hand takes the bear along, and no pawn that stands by.
+//!
+//! That goes for what the call does not name, and so cannot ask for. Of what it names, the learned action may have been
+//! generalized as far as the imagined one was raised, and neither is nearer to what was seen.
+//!
+//! A learned action predicts only changes here, however it may be used otherwise: where some of its effects hold already, it
+//! was never seen.
 //!
 //! That is found out where a plan has such a step. Then the action gives way in every state: a derived predicate says of
 //! which calls something was learned, and the action needs that it does not hold. So a task in which no plan has such a step is
@@ -11,7 +17,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use typelift_model::{
-    ActionModel, ActionSchema, Axiom, EQUALS, GroundAction, LiftedAtom, Literal, Plan, Symbol, Task, Term, TypeId,
+    ActionModel, ActionSchema, Axiom, EQUALS, GroundAction, Hierarchy, LiftedAtom, Literal, Plan, Step, Symbol, Task,
+    Term, TypeId, strict,
 };
 use typelift_plan::{Ban, Restrictions};
 
@@ -23,13 +30,14 @@ pub fn contradicted(plan: &Plan, model: &ActionModel, task: &Task, restrictions:
     if plan.steps.iter().all(|step| step.imagined.is_none()) {
         return found;
     }
+    let strict = strict(model);
+    let learned: Vec<&ActionSchema> = strict.actions.iter().filter(|schema| is_learned(schema)).collect();
     let mut state = model.with_derived(&task.init);
     for step in &plan.steps {
         let Some(schema) = model.action(step.action.as_str()) else { break };
         let Ok(action) = schema.instantiate(&step.objects, &state, &model.hierarchy) else { break };
-        if step.imagined.is_some() {
-            let learned = model.actions.iter().filter(|schema| is_learned(schema));
-            let instances = learned.flat_map(|schema| {
+        if has_unnamed(step, schema, task, &model.hierarchy) {
+            let instances = learned.iter().flat_map(|schema| {
                 let instances = schema.instances(&action.call, &state, &model.hierarchy).into_iter();
                 instances.filter(|instance| may_be_used(instance, schema, restrictions, model, task))
             });
@@ -46,6 +54,16 @@ pub fn contradicted(plan: &Plan, model: &ActionModel, task: &Task, restrictions:
         state = model.with_derived(&state);
     }
     found
+}
+
+/// Whether something takes part in an imagined step that is of no type that was seen there, and that the call does not name.
+fn has_unnamed(step: &Step, schema: &ActionSchema, task: &Task, hierarchy: &Hierarchy) -> bool {
+    let mut replaced = step.imagined.iter().flat_map(|imagined| &imagined.replaced);
+    replaced.any(|replacement| {
+        let ty = step.objects.get(replacement.parameter as usize).and_then(|object| task.init.objects.get(object));
+        !schema.call.args.contains(&Term::Param(replacement.parameter))
+            && ty.is_some_and(|ty| !hierarchy.is_a(*ty, replacement.from))
+    })
 }
 
 fn is_learned(schema: &ActionSchema) -> bool {
@@ -80,7 +98,8 @@ pub(crate) fn give_way(actions: &mut [ActionSchema], model: &ActionModel, names:
         action.preconditions.dedup();
     }
     let stratum = model.axioms.iter().map(|axiom| axiom.stratum + 1).max().unwrap_or(0);
-    let learned = model.actions.iter().filter_map(|schema| {
+    let strict = strict(model);
+    let learned = strict.actions.iter().filter_map(|schema| {
         let predicate = predicates.get(&(schema.call.name.clone(), schema.call.args.len()))?;
         let differ = |&(one, other): &(u32, u32)| {
             Literal::negative(LiftedAtom::new(EQUALS, vec![Term::Param(one), Term::Param(other)]))

@@ -11,14 +11,16 @@
 //! | `GetUnreachablePreconds`                         | `preconditions.rs`|
 //! | `CreateSubstitutedAction`                        | `substitute.rs`   |
 //!
-//! Where all that leads to no plan either, preconditions that always held may be done without, one or two (`loosen.rs`). That
-//! goes beyond the paper.
+//! What was learned of a call goes before what was imagined of it, where both can be used (`give_way.rs`), which the paper leaves
+//! open. Where all that leads to no plan either, preconditions that always held may be done without, one or two (`loosen.rs`).
+//! That goes beyond the paper.
 //!
 //! Imagined actions rest on no observation of their own. They only ever widen what may be planned: the model's own
 //! actions stay as they are.
 #![deny(missing_docs)]
 
 mod create;
+mod give_way;
 mod given_up;
 mod guard;
 mod loosen;
@@ -28,9 +30,12 @@ mod substitute;
 
 use std::collections::{BTreeSet, VecDeque};
 
-use typelift_model::{ActionModel, ActionSchema, Budget, GroundAtom, HashMap, Stop, Symbol, Task, TypeId, UniqueNames};
+use typelift_model::{
+    ActionModel, ActionSchema, Axiom, Budget, GroundAtom, HashMap, LiftedAtom, Stop, Symbol, Task, TypeId, UniqueNames,
+};
 use typelift_plan::{Reachable, Restrictions};
 
+pub use give_way::contradicted;
 pub use given_up::{Because, GivenUp};
 pub use guard::Guard;
 pub use loosen::{Loosening, loosenings, without_all};
@@ -55,6 +60,8 @@ pub struct Imagination {
     pub given_up: Vec<GivenUp>,
     /// The preconditions that some of the new actions do without.
     pub loosened: Vec<Loosening>,
+    /// When something was learned of a call to which new actions give way.
+    pub learned: Vec<Axiom>,
 }
 
 impl Imagination {
@@ -63,6 +70,10 @@ impl Imagination {
         let mut model = model.clone();
         model.actions.extend(self.actions.iter().cloned());
         model.actions.sort_by(|a, b| a.name.cmp(&b.name));
+        let of_anything = |head: &LiftedAtom| vec![model.hierarchy.root(); head.arity()];
+        let heads = self.learned.iter().map(|axiom| &axiom.head);
+        model.predicates.extend(heads.map(|head| (head.predicate.clone(), of_anything(head))));
+        model.axioms.extend(self.learned.iter().cloned());
         model
     }
 
@@ -71,6 +82,11 @@ impl Imagination {
         let loosened = loosen::loosened(model, loosenings).into_iter();
         self.actions.extend(loosened.filter(|action| model.action(action.name.as_str()).is_none()));
         self.loosened.extend_from_slice(loosenings);
+    }
+
+    /// Has the new actions of these names used only where none of the model would change what it says that has the same call.
+    pub fn give_way(&mut self, model: &ActionModel, names: &BTreeSet<Symbol>) {
+        self.learned = give_way::give_way(&mut self.actions, model, names);
     }
 }
 

@@ -20,9 +20,16 @@ impl Choices<'_> {
     pub(crate) fn for_each<'b>(&'b self, bound: &'b [Symbol], each: &mut impl FnMut(&[Symbol])) {
         let mut binding: Vec<Option<&Symbol>> = bound.iter().map(Some).collect();
         binding.resize(bound.len() + self.parameters.len(), None);
-        let positive: Vec<&LiftedAtom> =
-            self.condition.iter().filter(|l| l.positive && !l.atom.is_equality()).map(|l| &l.atom).collect();
-        self.join(&positive, bound.len(), &mut binding, each);
+        self.join(&self.positive(), bound.len(), &mut binding, each);
+    }
+
+    /// The same where no parameter precedes these, and the objects of some are chosen already, whatever their types.
+    pub(crate) fn for_each_with<'b>(&'b self, chosen: &mut [Option<&'b Symbol>], each: &mut impl FnMut(&[Symbol])) {
+        self.join(&self.positive(), 0, chosen, each);
+    }
+
+    fn positive(&self) -> Vec<&LiftedAtom> {
+        self.condition.iter().filter(|l| l.positive && !l.atom.is_equality()).map(|l| &l.atom).collect()
     }
 
     fn join<'b>(

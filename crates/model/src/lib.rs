@@ -26,6 +26,7 @@ mod goal;
 mod goal_error;
 mod goal_types;
 mod hierarchy;
+mod instances;
 mod instantiate;
 mod json_message;
 mod learned_model;
