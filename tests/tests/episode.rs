@@ -4,7 +4,7 @@
 use std::sync::Arc;
 use typelift::agent::{
     Account, Command, CommandId, Ending, Episode, EpisodeError, Event, Experience, Input, Objection, Options,
-    RestoreError, StepResult, Suspect, WhyNoOther,
+    PlanningTerms, RestoreError, StepResult, Suspect, WhyNoOther,
 };
 use typelift::model::{Budget, GoalErrorKind, GroundAtom, Plan, State, Symbol};
 use typelift::plan::Exclusion;
@@ -70,7 +70,10 @@ fn a_refusal_is_tried_again_then_blamed() {
     assert_eq!(failure.suspects, std::slice::from_ref(&blamed));
     let suspects = it.episode.experience().suspects(it.episode.instance());
     let [(suspect, why)] = suspects.as_slice() else { panic!("{suspects:?}") };
-    assert_eq!((suspect, why.reason.as_str(), why.count), (&blamed, "cut(saw_1, b): \"jammed\"", 1));
+    assert_eq!(
+        (suspect, why.reasons.as_slice(), why.count),
+        (&blamed, &["cut(saw_1, b): \"jammed\"".to_owned()][..], 1)
+    );
 }
 
 #[test]
@@ -280,6 +283,31 @@ fn a_result_counts_for_the_action_that_it_answers() {
 }
 
 #[test]
+fn events_tell_on_what_terms_is_planned_and_how_it_ended() {
+    let mut it = ByHand::asked(Options::default());
+    assert_eq!(it.another_plan(), "propose cut(saw_2, b)");
+    assert_eq!(it.approve(), "act cut(saw_2, b)");
+    let after = it.cut.clone();
+    assert_eq!(it.observed(after), "done, solved");
+    let terms = it.events.iter().filter_map(|event| match event {
+        Event::PlanningStarted { terms, .. } => Some(*terms),
+        _ => None,
+    });
+    assert_eq!(terms.collect::<Vec<_>>(), [PlanningTerms::Usual, PlanningTerms::AsBefore]);
+    assert_eq!(it.events.last(), Some(&Event::Ended { solved: true, ending: "solved" }));
+    // Nothing but the one saw is left, and then not even that: the resorts are told, and how it ended.
+    let mut it = ByHand::asked(Options::default());
+    it.reject(1, None);
+    it.reject(1, None);
+    let told = it
+        .events
+        .iter()
+        .filter(|event| matches!(event, Event::PlanningStarted { terms: PlanningTerms::WithResort(_), .. }));
+    assert!(told.count() > 0, "{:?}", it.events);
+    assert_eq!(it.events.last(), Some(&Event::Ended { solved: false, ending: "no_plan" }));
+}
+
+#[test]
 fn another_plan_says_nothing_against_the_first() {
     let mut it = ByHand::asked(Options::default());
     assert_eq!(it.another_plan(), "propose cut(saw_2, b)");
@@ -289,7 +317,7 @@ fn another_plan_says_nothing_against_the_first() {
     assert_eq!(it.events.last(), Some(&Event::NoOtherPlan { proposal: 2, why: WhyNoOther::NoMorePlans }));
     // Every search is told as planning, and what it took is in the account.
     let planning = |event: &Event| match event {
-        Event::PlanningStarted { proposal } => Some(format!("{proposal}?")),
+        Event::PlanningStarted { proposal, .. } => Some(format!("{proposal}?")),
         Event::PlanningEnded { found, .. } => Some(found.to_string()),
         _ => None,
     };

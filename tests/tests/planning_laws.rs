@@ -6,7 +6,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use typelift::agent::{Options, Proposal, propose};
 use typelift::check::check;
 use typelift::imagine::{self, imagine};
-use typelift::model::{ActionModel, Budget, GroundAtom, GroundCall, Provenance, State, Symbol, Task, strict};
+use typelift::model::{
+    ActionModel, ActionSchema, Budget, Goal, GroundAtom, GroundCall, Plan, Provenance, State, Symbol, Task, strict,
+};
 use typelift::plan::{FactId, GroundTask, Outcome, Restrictions, TieOrder, ground};
 use typelift_kitchen::{KitchenTask, tasks};
 use typelift_tests::{Variant, kitchen_model, planning_task};
@@ -48,6 +50,38 @@ fn every_plan_of_the_kitchen_replays() {
     assert_eq!(solved["generalized+imagined"], 24);
     assert_eq!(solved["generalized"], 16);
     assert!(solved["individual+imagined"] >= solved["individual"]);
+}
+
+/// What an imagined step deletes on the way to a goal that something holds, it deletes for a goal that this holds no longer.
+#[test]
+fn what_is_to_hold_no_longer_is_imagined_for_as_well() {
+    let model = kitchen_model(false);
+    let mut found_by_imagining = 0;
+    for (task, asked) in kitchen_tasks(&model) {
+        let found = proposal(&model, &asked, true);
+        let Outcome::Solved(plan) = &found.outcome else { continue };
+        let Some(first) = plan.steps.iter().position(|step| step.imagined.is_some()) else { continue };
+        let part = |steps: usize| Plan { steps: plan.steps[..steps].to_vec() };
+        let after = |steps: usize| {
+            let anything = Task { goal: Goal::default(), ..asked.clone() };
+            check(&found.model, &anything, &part(steps)).expect("the beginning of a plan is one")
+        };
+        let (before, after) = (after(first), after(first + 1));
+        for gone in before.atoms.difference(&after.atoms).filter(|atom| asked.init.holds(atom)) {
+            let goal = Goal { required: Vec::new(), forbidden: vec![gone.clone()] };
+            let without_it = Task { goal, ..asked.clone() };
+            if matches!(proposal(&model, &without_it, false).outcome, Outcome::Solved(_)) {
+                continue;
+            }
+            let other = proposal(&model, &without_it, true);
+            let Outcome::Solved(plan) = &other.outcome else { panic!("{}: not {gone}", task.name) };
+            check(&other.model, &without_it, plan).unwrap_or_else(|e| panic!("{}, not {gone}: {e}", task.name));
+            let for_it = |action: &ActionSchema| matches!(&action.provenance, Provenance::Imagined { goal, positive: false, .. } if goal == gone);
+            assert!(other.imagination.actions.iter().any(for_it) && other.imagination.undeleted == [gone.clone()]);
+            found_by_imagining += 1;
+        }
+    }
+    assert!(found_by_imagining > 3, "{found_by_imagining}");
 }
 
 #[test]
@@ -189,8 +223,13 @@ fn imagination_only_adds() {
                 }
             }
             for action in &imagined.actions {
-                if let Provenance::Imagined { goal, .. } = &action.provenance {
-                    assert!(imagined.unreachable.contains(goal), "{}: {} for {goal}", task.name, action.name);
+                if let Provenance::Imagined { goal, positive, .. } = &action.provenance {
+                    assert!(
+                        *positive && imagined.unreachable.contains(goal),
+                        "{}: {} for {goal}",
+                        task.name,
+                        action.name
+                    );
                 }
             }
         }

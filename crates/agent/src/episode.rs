@@ -322,7 +322,7 @@ impl Episode {
             self.account.plan = Some(self.plan_taken());
         }
         self.account.ending = ending;
-        observer.event(&Event::Ended { solved: self.account.solved() });
+        observer.event(&Event::Ended { solved: self.account.solved(), ending: self.account.ending.word() });
         self.standing()
     }
 }

@@ -21,6 +21,23 @@ pub enum WhyNoOther {
     Stopped(Stop),
 }
 
+/// On what terms a plan is looked for.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum PlanningTerms {
+    /// The usual ones, with the exclusions that count by then.
+    #[default]
+    Usual,
+    /// There is no plan on the usual ones, and this is given up. That it led to a proposal, and whether it is given up from then
+    /// on, is told by a [`LastResort`](Event::LastResort).
+    WithResort(Resort),
+    /// There is none either way, and preconditions are done without.
+    Loosened,
+    /// Those of the plan before: another one is looked for.
+    AsBefore,
+}
+
 /// Something that happened. `P` is how plans are told: programs outside are given a view of them.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -30,6 +47,9 @@ pub enum Event<P = Plan> {
     PlanningStarted {
         /// The number of the proposal it may lead to, from 1.
         proposal: u64,
+        /// On what terms.
+        #[cfg_attr(feature = "schema", schemars(default))]
+        terms: PlanningTerms,
     },
     /// Planning ended.
     PlanningEnded {
@@ -117,6 +137,9 @@ pub enum Event<P = Plan> {
     Ended {
         /// Whether the goal was seen to hold.
         solved: bool,
+        /// The [word](crate::Ending::word) for how it ended, as in the account.
+        #[cfg_attr(feature = "schema", schemars(default))]
+        ending: &'static str,
     },
 }
 
@@ -124,7 +147,7 @@ impl<P: Clone> Event<P> {
     /// The same with its plan told as `tell` does.
     pub fn map_plan<Q>(&self, tell: impl FnOnce(&P) -> Q) -> Event<Q> {
         match self.clone() {
-            Self::PlanningStarted { proposal } => Event::PlanningStarted { proposal },
+            Self::PlanningStarted { proposal, terms } => Event::PlanningStarted { proposal, terms },
             Self::PlanningEnded { expansions, ground_actions, imagined, found } => {
                 Event::PlanningEnded { expansions, ground_actions, imagined, found }
             }
@@ -138,7 +161,7 @@ impl<P: Clone> Event<P> {
             Self::Drifted { step, missing } => Event::Drifted { step, missing },
             Self::LastResort { resort } => Event::LastResort { resort },
             Self::NoOtherPlan { proposal, why } => Event::NoOtherPlan { proposal, why },
-            Self::Ended { solved } => Event::Ended { solved },
+            Self::Ended { solved, ending } => Event::Ended { solved, ending },
         }
     }
 }

@@ -15,8 +15,8 @@ use crate::suspect::{Certainty, Condition, Suspect};
 /// Why something is avoided, and how often that was seen.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Remembered {
-    /// The failure that led to it, in words.
-    pub reason: String,
+    /// The failures that led to it, in words, in order, each once.
+    pub reasons: Vec<String>,
     /// How many failures led to it.
     pub count: u64,
 }
@@ -224,11 +224,15 @@ impl Experience {
     }
 }
 
-/// Each once, with the first reason and how often it is there, sorted.
+/// Each once, with the reasons and how often it is there, sorted.
 fn counted<'a, T: Ord>(found: impl Iterator<Item = (T, &'a String)>) -> Vec<(T, Remembered)> {
     let mut map = std::collections::BTreeMap::new();
     for (key, reason) in found {
-        map.entry(key).or_insert_with(|| Remembered { reason: reason.clone(), count: 0 }).count += 1;
+        let remembered = map.entry(key).or_insert_with(|| Remembered { reasons: Vec::new(), count: 0 });
+        if !remembered.reasons.contains(reason) {
+            remembered.reasons.push(reason.clone());
+        }
+        remembered.count += 1;
     }
     map.into_iter().collect()
 }

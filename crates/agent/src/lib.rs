@@ -39,7 +39,7 @@ pub use account::{Account, Avoided, Ending, Failure, SeenDone, StoppedAt};
 pub use blame::BlameRule;
 pub use deed::{Failed, Success};
 pub use episode::{Episode, EpisodeError};
-pub use event::{Event, Observer, WhyNoOther};
+pub use event::{Event, Observer, PlanningTerms, WhyNoOther};
 pub use experience::{Experience, Remembered};
 pub use foresight::Explanation;
 pub use loosening::{allowed, propose};

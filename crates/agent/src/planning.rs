@@ -8,7 +8,7 @@ use typelift_plan::{Outcome, Report};
 
 use crate::account::Ending;
 use crate::episode::{Episode, EpisodeError, Phase};
-use crate::event::{Event, Observer, WhyNoOther};
+use crate::event::{Event, Observer, PlanningTerms, WhyNoOther};
 use crate::execution::{Execution, Terms, steps};
 use crate::loosening::{propose, propose_loosened};
 use crate::options::Options;
@@ -147,7 +147,7 @@ impl Episode {
         plans_given: usize,
         observer: &mut dyn Observer,
     ) -> Result<Proposal, ProposeError> {
-        observer.event(&Event::PlanningStarted { proposal: self.account.proposals + 1 });
+        self.planning_started(PlanningTerms::AsBefore, observer);
         let planned = self.plan_on(terms).and_then(|mut proposal| {
             let mut outcome = proposal.outcome.clone();
             for _ in 1..plans_given {
@@ -174,7 +174,7 @@ impl Episode {
         plans_given: &mut usize,
         observer: &mut dyn Observer,
     ) -> Result<Outcome, ProposeError> {
-        observer.event(&Event::PlanningStarted { proposal: self.account.proposals + 1 });
+        self.planning_started(PlanningTerms::AsBefore, observer);
         let before = proposal.report().expansions;
         let outcome = loop {
             let outcome = proposal.next_plan(&self.budget);
@@ -196,7 +196,7 @@ impl Episode {
     fn plan_with_last_resorts(&mut self, observer: &mut dyn Observer) -> Result<Planned, ProposeError> {
         let counted = self.account.resorts.counted();
         let usual = self.terms(counted);
-        let proposal = self.plan_aloud(&usual, observer)?;
+        let proposal = self.plan_aloud(&usual, PlanningTerms::Usual, observer)?;
         if has_answer(&proposal.outcome) {
             return Ok(Planned { proposal, terms: usual, resort: None });
         }
@@ -207,7 +207,7 @@ impl Episode {
             if in_vain.contains(&terms) {
                 continue;
             }
-            let other = self.plan_aloud(&terms, observer)?;
+            let other = self.plan_aloud(&terms, PlanningTerms::WithResort(resort), observer)?;
             if has_answer(&other.outcome) {
                 return Ok(Planned { proposal: other, terms, resort: Some(resort) });
             }
@@ -231,7 +231,7 @@ impl Episode {
         if !self.options.loosens() {
             return Ok(None);
         }
-        observer.event(&Event::PlanningStarted { proposal: self.account.proposals + 1 });
+        self.planning_started(PlanningTerms::Loosened, observer);
         let (task, options) = self.asked(terms, &self.state);
         let planned = propose_loosened(&self.model_on(terms), &task, &terms.restrictions, &options, &self.budget);
         let found = planned.as_ref().ok().and_then(Option::as_ref);
@@ -277,9 +277,18 @@ impl Episode {
         Terms { restrictions, conditions, relaxed: false, elsewhere, loosened: Vec::new(), needs, risks }
     }
 
+    fn planning_started(&self, terms: PlanningTerms, observer: &mut dyn Observer) {
+        observer.event(&Event::PlanningStarted { proposal: self.account.proposals + 1, terms });
+    }
+
     /// Plans, and tells of it.
-    fn plan_aloud(&mut self, terms: &Terms, observer: &mut dyn Observer) -> Result<Proposal, ProposeError> {
-        observer.event(&Event::PlanningStarted { proposal: self.account.proposals + 1 });
+    fn plan_aloud(
+        &mut self,
+        terms: &Terms,
+        told: PlanningTerms,
+        observer: &mut dyn Observer,
+    ) -> Result<Proposal, ProposeError> {
+        self.planning_started(told, observer);
         let planned = self.plan_on(terms);
         let report = planned.as_ref().map(Proposal::report).unwrap_or_default();
         self.count(report);

@@ -9,6 +9,8 @@ use typelift_world::{Answer, Entity, Relation, Scene, Value};
 pub(crate) enum Unreadable {
     /// It is not JSON.
     NotJson(String),
+    /// It would be JSON, were it not for what stands for a number that is none.
+    NoNumber(String),
     /// It is JSON, and perhaps says which request it answers.
     Malformed { id: Option<u64>, what: String },
 }
@@ -21,13 +23,24 @@ pub(crate) fn read_answer(line: &[u8]) -> Result<Answer, Unreadable> {
         Ok(answer) => return Ok(answer),
         Err(error) => error,
     };
-    let json: Json = serde_json::from_str(text)
-        .map_err(|e| Unreadable::NotJson(format!("{} at column {}", syntax_message(&e), e.column())))?;
+    let json: Json = serde_json::from_str(text).map_err(|e| match not_a_number(text, e.column()) {
+        Some(written) => Unreadable::NoNumber(format!("{written} at column {}", e.column())),
+        None => Unreadable::NotJson(format!("{} at column {}", syntax_message(&e), e.column())),
+    })?;
     let Json::Object(fields) = json else {
         return Err(Unreadable::Malformed { id: None, what: "it is not an object".to_owned() });
     };
     let what = malformed(&fields).unwrap_or_else(|| message(&error));
     Err(Unreadable::Malformed { id: fields.get("id").and_then(Json::as_u64), what })
+}
+
+/// What many programs write for numbers that JSON does not have, if that stands at this column, from 1.
+fn not_a_number(text: &str, column: usize) -> Option<&'static str> {
+    let before = column.saturating_sub(1);
+    // An error is told where the first letter stands, or after what could still have begun a number.
+    let places = (before.saturating_sub(1)..=before).filter_map(|at| text.get(at..));
+    let written = |rest: &str| ["NaN", "Infinity", "-Infinity"].into_iter().find(|name| rest.starts_with(name));
+    places.filter_map(written).next()
 }
 
 /// What is wrong with a text where it is said already that it is not JSON.
@@ -76,8 +89,13 @@ fn malformed_entity((index, entity): (usize, &Json)) -> Option<String> {
     };
     let attribute = |(attribute, value): (&String, &Json)| {
         let wrong = serde_json::from_value::<Value>(value.clone()).is_err();
-        wrong.then(|| {
-            format!("{name}: attribute `{attribute}` is neither true, false, a word, a number nor a list of numbers")
+        wrong.then(|| match value {
+            Json::Null => {
+                format!("{name}: attribute `{attribute}` is null: leave out what is not known, or give it a word")
+            }
+            _ => format!(
+                "{name}: attribute `{attribute}` is neither true, false, a word, a number nor a list of numbers"
+            ),
         })
     };
     let relation = |(relation, value): (&String, &Json)| {
@@ -128,6 +146,10 @@ mod tests {
     fn what_is_no_answer() {
         assert_eq!(wrong(b"hello"), Unreadable::NotJson("expected value at column 1".to_owned()));
         assert_eq!(wrong(b"{\"\xff\"}"), Unreadable::NotJson("not UTF-8 text from byte 3 on".to_owned()));
+        let no_number = |what: &str| Unreadable::NoNumber(what.to_owned());
+        assert_eq!(wrong(br#"{"id":1,"v":NaN}"#), no_number("NaN at column 13"));
+        assert_eq!(wrong(br#"{"id":1,"v":[0,Infinity]}"#), no_number("Infinity at column 16"));
+        assert_eq!(wrong(br#"{"id":1,"v":-Infinity}"#), no_number("-Infinity at column 14"));
         assert_eq!(wrong(b"[1]"), Unreadable::Malformed { id: None, what: "it is not an object".to_owned() });
     }
 

@@ -170,7 +170,7 @@ impl Bridge {
             let answers = match &read {
                 Ok(answer) => Some(answer.id),
                 Err(Unreadable::Malformed { id, .. }) => *id,
-                Err(Unreadable::NotJson(_)) => None,
+                Err(Unreadable::NotJson(_) | Unreadable::NoNumber(_)) => None,
             };
             let was_unanswered = answers.is_some_and(|id| self.unanswered.remove(&id));
             if was_unanswered && answers != Some(id) {
@@ -184,6 +184,7 @@ impl Bridge {
                     Failure::Refused { op, error }
                 }
                 Err(Unreadable::NotJson(what)) => Failure::NotJson { op, what },
+                Err(Unreadable::NoNumber(what)) => Failure::NoNumber { op, what },
                 Err(Unreadable::Malformed { what, .. }) => Failure::Malformed { op, what },
             };
             return Err(self.error(failure, Some(&asked.sent), Some(&text)));

@@ -70,6 +70,14 @@ pub enum Failure {
         /// Why not, and where.
         what: String,
     },
+    /// It sent what would be JSON, were it not for what stands for a number that is none.
+    #[error("its answer to `{op}` is not JSON: {what}")]
+    NoNumber {
+        /// What was asked.
+        op: &'static str,
+        /// What it wrote, and where.
+        what: String,
+    },
     /// It sent JSON that is not an answer.
     #[error("its answer to `{op}` is malformed: {what}")]
     Malformed {
@@ -153,6 +161,11 @@ impl BridgeError {
                 "Its standard output is for answers only, one a line; what it wants to tell goes to standard error."
                     .to_owned(),
             ),
+            Failure::NoNumber { .. } => Some(
+                "JSON has no such number, though Python's json module writes it: leave out an attribute that is not known, or \
+                 give it a word."
+                    .to_owned(),
+            ),
             Failure::WrongId { .. } => Some("An answer repeats the `id` of its request.".to_owned()),
             Failure::TimedOut { op: "hello", .. } => {
                 Some("Does it read requests from its standard input, and flush its standard output?".to_owned())
@@ -193,6 +206,7 @@ impl From<BridgeError> for WorldError {
             Failure::TimedOut { .. } => Self::TimedOut { account },
             Failure::TooLong
             | Failure::NotJson { .. }
+            | Failure::NoNumber { .. }
             | Failure::Malformed { .. }
             | Failure::WrongId { .. }
             | Failure::Missing { .. }

@@ -4,26 +4,29 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use typelift::model::strict;
-use typelift::words::{difference, difference_lines, evidence_difference};
+use typelift::words::{ModelDifference, difference, difference_lines, evidence_difference};
 
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::{ModelInput, read_model_input};
-use crate::style::painted;
+use crate::style::{HINT, painted};
 
 /// Say how two models differ
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   typelift diff before.json after.json
-  typelift diff kitchen.json kitchen.pddl
+  typelift diff kitchen.json export/domain.pddl
+  typelift diff kitchen.json kitchen.pddl --not-strict    # of show --pddl
 
 Actions of one skill are matched by their effects, whatever their parameters
 are called. Before what only the first has stands -, before what only the second
-has +. Models that act alike are the same, however much they were learned from;
-of two learned ones that is said last. Beside a PDDL domain, which does not say
-who acts, names may differ in case, and a learned model is taken as `export`
-writes it: its actions need what they add not to hold. With --not-strict it is
-taken as `show --pddl` writes it, and `export --not-strict`.
+has +. Models that act alike are the same, however much they were learned from,
+and of whatever types their predicates are known: that is said besides.
+
+Beside a PDDL domain, which does not say who acts, names may differ in case, and
+a learned model is taken as `export` writes it: its actions need what they add
+not to hold. With --not-strict it is taken as `show --pddl` writes it, and
+`export --not-strict`.
 
 Exit codes: 0 the same, 12 different, 31 bad input, 36 wrong usage.")]
 pub(crate) struct Diff {
@@ -44,11 +47,11 @@ impl Diff {
         let (first, second) =
             (read_model_input(&self.first, None, quiet)?, read_model_input(&self.second, None, quiet)?);
         let beside_pddl = first.is_given() || second.is_given();
-        let mut found = if beside_pddl && !self.not_strict {
-            difference(&strict(first.model()), &strict(second.model()), true)
-        } else {
-            difference(first.model(), second.model(), beside_pddl)
-        };
+        let plain = || difference(first.model(), second.model(), beside_pddl);
+        let is_strict = beside_pddl && !self.not_strict;
+        let mut found =
+            if is_strict { difference(&strict(first.model()), &strict(second.model()), true) } else { plain() };
+        let hint = if is_strict && !found.same { hint(&found, &plain()) } else { None };
         if let (ModelInput::Learned(first), ModelInput::Learned(second)) = (&first, &second) {
             found.evidence = evidence_difference(&first.evidence, &second.evidence);
         }
@@ -61,6 +64,32 @@ impl Diff {
                 writeln!(out, "{}", painted(&line))?;
             }
         }
+        if let Some(hint) = hint.filter(|_| !quiet) {
+            anstream::eprintln!("{HINT}hint{HINT:#}: {hint}");
+        }
         Ok(if found.same { Exit::Success } else { Exit::NotAchieved })
+    }
+}
+
+/// What to say where the models are closer to each other if the learned one's actions are not strict.
+fn hint(found: &ModelDifference, plain: &ModelDifference) -> Option<String> {
+    let differing = |found: &ModelDifference| found.changed.len() + found.actions.len();
+    match differing(plain) {
+        _ if plain.same => Some("with --not-strict they are the same: the domain is not strict.".to_owned()),
+        fewer if fewer < differing(found) => Some(format!(
+            "with --not-strict {} rather than {}: the domain is not strict.",
+            differ(fewer),
+            differing(found)
+        )),
+        _ => None,
+    }
+}
+
+/// How many actions differ.
+fn differ(actions: usize) -> String {
+    match actions {
+        0 => "no action differs".to_owned(),
+        1 => "1 action differs".to_owned(),
+        more => format!("{more} actions differ"),
     }
 }

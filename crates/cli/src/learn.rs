@@ -17,7 +17,7 @@ use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::warn;
 use crate::learn_actor;
-use crate::learn_changes::{Changes, colliding, flickering};
+use crate::learn_changes::{Changes, Flickering, colliding, flickering, without_effect};
 use crate::learn_into::{self, add, beginning, forget};
 use crate::learn_report::{Report, print_counts};
 use crate::limits::{Clock, Limits};
@@ -314,6 +314,13 @@ impl Learn {
                 anstream::eprintln!("{HINT}hint{HINT:#}: {rule} is a predicate; it comes from {source}");
             }
         }
+        if !self.ignore.is_empty() {
+            for call in without_effect(&model.evidence.total()) {
+                anstream::eprintln!(
+                    "{WARNING}warning{WARNING:#}: no action is learned of {call}: it changed nothing but what is ignored, or nothing at all"
+                );
+            }
+        }
         // Of the notes only that of the actor is about no parameter.
         if learned.notes.iter().any(|note| note.parameter.is_none()) {
             learn_actor::hint(report.no_actor.as_ref());
@@ -336,7 +343,7 @@ impl Learn {
         let (single, actions) = (report.single_support, report.generalized);
         let source = |predicate| dataset.attributes.get(predicate).unwrap_or(predicate);
         let total = model.evidence.total();
-        let Some((name, fewer, all)) = flickering(&total, source) else { return };
+        let Some(Flickering { name, fewer, all, is_needed }) = flickering(&total, source) else { return };
         let is_told = every_time.into_iter().any(|predicate| *source(predicate) == name);
         if self.individual || single * 2 <= actions || is_told {
             return;
@@ -344,9 +351,15 @@ impl Learn {
         anstream::eprintln!(
             "{WARNING}warning{WARNING:#}: {single} of {actions} actions rest on a single observation, so little was generalized"
         );
-        anstream::eprintln!(
-            "{HINT}hint{HINT:#}: what changes by itself keeps alike actions apart; without `{name}` there would be {fewer} kinds of effect instead of {all}: if it flickers, give it hysteresis; if it does not matter, --ignore {name}"
-        );
+        if is_needed {
+            anstream::eprintln!(
+                "{HINT}hint{HINT:#}: most is kept apart by `{name}`, which is all that some action changes: more demonstrations help, or saying it in fewer words"
+            );
+        } else {
+            anstream::eprintln!(
+                "{HINT}hint{HINT:#}: what changes by itself keeps alike actions apart; without `{name}` there would be {fewer} kinds of effect instead of {all}: if it flickers, give it hysteresis; if it does not matter, --ignore {name}"
+            );
+        }
     }
 }
 

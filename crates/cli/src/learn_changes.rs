@@ -103,12 +103,24 @@ pub(crate) fn colliding(error: ModelFileError, dataset: &Dataset) -> Failure {
     }
 }
 
-/// The attribute or relation, as `source` has them of predicates, without which there would be the fewest kinds of effect,
-/// and how many those would be, and are; none if there would not be fewer. A kind is what could be generalized into one action, whatever the types.
+/// What keeps actions apart that are alike otherwise.
+pub(crate) struct Flickering {
+    /// The attribute or relation.
+    pub(crate) name: Symbol,
+    /// How many kinds of effect there would be without it.
+    pub(crate) fewer: usize,
+    /// How many there are.
+    pub(crate) all: usize,
+    /// Whether it is all that some call changes.
+    pub(crate) is_needed: bool,
+}
+
+/// The attribute or relation, as `source` has them of predicates, without which there would be the fewest kinds of effect;
+/// none if there would not be fewer. A kind is what could be generalized into one action, whatever the types.
 pub(crate) fn flickering<'a>(
     observations: &'a Observations,
     source: impl Fn(&'a Symbol) -> &'a Symbol,
-) -> Option<(Symbol, usize, usize)> {
+) -> Option<Flickering> {
     let clusters: Vec<&'a ClusterKey> = observations.clusters.keys().collect();
     let kinds = |left_out: Option<&Symbol>| {
         let kind = |key: &&'a ClusterKey| {
@@ -124,5 +136,32 @@ pub(crate) fn flickering<'a>(
     let sources: BTreeSet<&Symbol> = atoms.map(|atom| source(&atom.predicate)).collect();
     let (fewest, left_out) = sources.into_iter().map(|source| (kinds(Some(source)), source)).min()?;
     let all = kinds(None);
-    (fewest < all).then(|| (left_out.clone(), fewest, all))
+    (fewest < all).then(|| Flickering {
+        name: left_out.clone(),
+        fewer: fewest,
+        all,
+        is_needed: is_all_of_a_call(observations, |predicate| source(predicate) == left_out),
+    })
+}
+
+/// Whether some call changed nothing else, and mostly of its own arguments: then this is what the call does.
+fn is_all_of_a_call<'a>(observations: &'a Observations, is_of: impl Fn(&'a Symbol) -> bool) -> bool {
+    // Of each call whether it changed anything else, how often these atoms were all about its arguments, and how often not.
+    let mut seen: BTreeMap<&Symbol, (bool, u64, u64)> = BTreeMap::new();
+    for (key, cluster) in &observations.clusters {
+        let (changes_more, of_arguments, of_others) = seen.entry(&key.action).or_default();
+        let speaks_of_it = |atom: &LiftedAtom| atom.params().any(|parameter| key.call.contains(&parameter));
+        let mut atoms = key.adds.iter().chain(&key.deletes);
+        *changes_more |= atoms.clone().any(|atom| !is_of(&atom.predicate));
+        let of_these = if atoms.all(speaks_of_it) { of_arguments } else { of_others };
+        *of_these += cluster.count;
+    }
+    seen.into_values().any(|(changes_more, of_arguments, of_others)| !changes_more && of_arguments > of_others)
+}
+
+/// The calls of which transitions were seen, and none that changed anything.
+pub(crate) fn without_effect(observations: &Observations) -> BTreeSet<&Symbol> {
+    let changing: BTreeSet<&Symbol> = observations.clusters.keys().map(|key| &key.action).collect();
+    let failing = observations.negatives.keys().map(|key| &key.action);
+    failing.filter(|call| !changing.contains(call)).collect()
 }

@@ -104,6 +104,9 @@ pub(crate) fn options(before: &Options, now: Options) -> Options {
     Options { individual: before.individual || now.individual, actor: now.actor.or_else(|| before.actor.clone()) }
 }
 
+/// Sources that are named in a hint.
+const MOST_SOURCES: usize = 10;
+
 /// Takes sources out: each by a file with its content, by its name, or by the first digits of its id.
 pub(crate) fn forget(evidence: &mut Evidence, into: &Path, sources: &[String]) -> Result<(), Failure> {
     for text in sources {
@@ -138,7 +141,12 @@ pub(crate) fn source_called(evidence: &Evidence, text: &str, option: &str) -> Re
     let known = evidence.sources().iter().map(|(id, source)| (id, &source.name));
     let found: Vec<(&SourceId, &Symbol)> = known.clone().filter(|source| called(*source)).collect();
     let listed = |sources: &mut dyn Iterator<Item = (&SourceId, &Symbol)>| {
-        sources.map(|(id, name)| format!("{name} ({})", id.short())).collect::<Vec<_>>().join(", ")
+        let first: Vec<String> =
+            sources.take(MOST_SOURCES).map(|(id, name)| format!("{name} ({})", id.short())).collect();
+        match sources.count() {
+            0 => first.join(", "),
+            more => format!("{} and {more} more", first.join(", ")),
+        }
     };
     match found.as_slice() {
         [(id, _)] => Ok(**id),

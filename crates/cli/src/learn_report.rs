@@ -14,6 +14,9 @@ use crate::style::wrapped;
 /// Notes about types that are printed; of a flat hierarchy there may be one for every parameter.
 const MOST_NOTES: usize = 5;
 
+/// Pairs of actions that were not merged and are named.
+const MOST_PAIRS: usize = 6;
+
 /// Calls whose failures are placed.
 const MOST_CALLS: usize = 6;
 
@@ -29,6 +32,7 @@ pub(crate) struct Report<'l> {
     refused_merges: usize,
     failures_against_merges: u64,
     not_merged: BTreeMap<Symbol, Vec<Witness>>,
+    not_merged_pairs: &'l [[Symbol; 2]],
     unexplained: u64,
     single_support: usize,
     predicates: BTreeMap<Symbol, usize>,
@@ -57,8 +61,15 @@ fn failed(observations: &Observations) -> BTreeMap<Symbol, Failed> {
     failed
 }
 
-fn listed(places: &BTreeMap<Symbol, BTreeSet<Witness>>) -> BTreeMap<Symbol, Vec<Witness>> {
-    places.iter().map(|(call, places)| (call.clone(), places.iter().cloned().collect())).collect()
+fn listed(against: &BTreeMap<Symbol, learn::FailuresAgainst>) -> BTreeMap<Symbol, Vec<Witness>> {
+    against.iter().map(|(call, failures)| (call.clone(), failures.places.iter().cloned().collect())).collect()
+}
+
+/// `open-box and open-chest, open-box and open-safe`; of many pairs the first.
+fn pairs(pairs: &[[Symbol; 2]]) -> String {
+    let named = pairs.iter().take(MOST_PAIRS).map(|[one, other]| format!("{one} and {other}"));
+    let more = pairs.len().saturating_sub(MOST_PAIRS);
+    named.chain((more > 0).then(|| format!("{more} more"))).collect::<Vec<_>>().join(", ")
 }
 
 /// `open a.jsonl step 3; press b.jsonl step 1 and 4 more`; of many calls the first.
@@ -72,7 +83,7 @@ fn by_call<'f>(failed: impl ExactSizeIterator<Item = (&'f Symbol, String)>) -> S
 }
 
 impl<'l> Report<'l> {
-    pub(crate) fn of(model: &'l LearnedModel, report: &learn::Report, notes: &'l [TypeNote]) -> Self {
+    pub(crate) fn of(model: &'l LearnedModel, report: &'l learn::Report, notes: &'l [TypeNote]) -> Self {
         Self {
             traces: model.evidence.sources().len(),
             transitions: report.transitions,
@@ -83,6 +94,7 @@ impl<'l> Report<'l> {
             refused_merges: report.refused.pairs,
             failures_against_merges: report.refused.failures,
             not_merged: listed(&report.against_merges),
+            not_merged_pairs: &report.not_merged,
             unexplained: report.unexplained,
             single_support: report.single_support,
             predicates: model.model.predicates.iter().map(|(name, types)| (name.clone(), types.len())).collect(),
@@ -118,7 +130,9 @@ pub(crate) fn print_counts(
     }
     if let Some(line) = refused_merges(report.refused) {
         let against = report.against_merges.iter();
-        writeln!(out, "{line}: {}", by_call(against.map(|(call, seen)| (call, places(seen, seen.len() as u64)))))?;
+        let against = by_call(against.map(|(call, failures)| (call, places(&failures.places, failures.times))));
+        writeln!(out, "{line}: {against}")?;
+        writeln!(out, "  {}", wrapped(pairs(&report.not_merged).split(' '), 2, 80))?;
     }
     if report.failures > 0 {
         let failed = failed(&model.evidence.total());

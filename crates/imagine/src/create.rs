@@ -6,10 +6,10 @@
 
 use std::collections::BTreeSet;
 
-use typelift_model::{ActionSchema, GroundAtom, Provenance, Replacement, Symbol, TypeId};
+use typelift_model::{ActionSchema, Provenance, Replacement, Symbol, TypeId};
 
-use crate::Context;
 use crate::potential::Potential;
+use crate::{Context, Wanted};
 
 /// A potential action with raised types.
 pub(crate) struct Proposal<'a> {
@@ -56,12 +56,13 @@ impl Proposal<'_> {
     }
 
     /// The imagined action, still with the name of the one it raises.
-    pub(crate) fn into_schema(self, goal: &GroundAtom) -> ActionSchema {
+    pub(crate) fn into_schema(self, wanted: &Wanted) -> ActionSchema {
         let (mut action, replaced) = raised(self.schema, |i, _| self.types[i]);
         action.provenance = Provenance::Imagined {
             from: self.schema.name.clone(),
             replaced,
-            goal: goal.clone(),
+            goal: wanted.atom.clone(),
+            positive: wanted.positive,
             observations: self.schema.provenance.observations(),
         };
         action

@@ -11,6 +11,9 @@
 //! | `GetUnreachablePreconds`                         | `preconditions.rs`|
 //! | `CreateSubstitutedAction`                        | `substitute.rs`   |
 //!
+//! The paper speaks of goals that are to hold. A goal that something is to hold no longer (`not p(a)`) is imagined for in the same
+//! way, with what deletes in place of what adds; that goes beyond the paper, and changes nothing where all goals are positive.
+//!
 //! What was learned of a call goes before what was imagined of it, where both can be used (`give_way.rs`), which the paper leaves
 //! open. Where all that leads to no plan either, preconditions that always held may be done without, one or two (`loosen.rs`).
 //! That goes beyond the paper.
@@ -56,6 +59,8 @@ pub struct Imagination {
     pub actions: Vec<ActionSchema>,
     /// The atoms that could not be reached and were worked through, in order.
     pub unreachable: Vec<GroundAtom>,
+    /// The atoms that were to hold no longer, that nothing could delete, and that were worked through, in order.
+    pub undeleted: Vec<GroundAtom>,
     /// What the guard gave up, each once, in order.
     pub given_up: Vec<GivenUp>,
     /// The preconditions that some of the new actions do without.
@@ -90,6 +95,13 @@ impl Imagination {
     }
 }
 
+/// An atom that is to hold, or to hold no longer, and which nothing that is known brings about.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+struct Wanted {
+    atom: GroundAtom,
+    positive: bool,
+}
+
 /// What all steps need to know.
 struct Context<'a> {
     model: &'a ActionModel,
@@ -113,7 +125,8 @@ impl Context<'_> {
     }
 }
 
-/// Algorithm 2: actions for the goal atoms that cannot be reached; none if all can.
+/// Algorithm 2: actions for the goal atoms that cannot be reached, or that are to hold no longer and cannot be deleted; none if
+/// there are no such goals.
 ///
 /// Work goes through a queue of unreachable atoms, each once. The cost is that of working out what is reachable, plus, for
 /// each atom, a look at every action, and at the instances of its unreachable preconditions.
@@ -144,20 +157,22 @@ pub fn imagine_from(
     options: &Options,
     budget: &Budget,
 ) -> Result<Imagination, Stop> {
-    let mut queue: VecDeque<GroundAtom> = reachable.unreached_goals().iter().cloned().collect();
+    let to_hold = reachable.unreached_goals().iter().cloned().map(|atom| Wanted { atom, positive: true });
+    let to_vanish = reachable.undeleted_goals().iter().cloned().map(|atom| Wanted { atom, positive: false });
+    let mut queue: VecDeque<Wanted> = to_hold.chain(to_vanish).collect();
     if queue.is_empty() {
         return Ok(Imagination::default());
     }
     let context = Context { model, task, restrictions, reached: reachable.atoms_by_predicate() };
-    let mut met: BTreeSet<GroundAtom> = queue.iter().cloned().collect();
+    let mut met: BTreeSet<Wanted> = queue.iter().cloned().collect();
     let mut imagination = Imagination::default();
     let mut names = UniqueNames::new(model.actions.iter().map(|action| action.name.clone()));
     let mut known: Vec<ActionSchema> = Vec::new();
-    while let Some(atom) = queue.pop_front() {
+    while let Some(wanted) = queue.pop_front() {
         if let Some(stop) = budget.stopped() {
             return Err(stop);
         }
-        for potential in potential::get_potential_actions(model, &atom) {
+        for potential in potential::get_potential_actions(model, &wanted) {
             let Some(proposal) = create::create_imagined_action(&context, &potential) else { continue };
             if let Some(given_up) = guard::gives_up(options.guard, &context, &proposal) {
                 if !imagination.given_up.contains(&given_up) {
@@ -166,15 +181,17 @@ pub fn imagine_from(
                 continue;
             }
             for atom in preconditions::get_unreachable_preconds(&context, &proposal) {
-                if met.insert(atom.clone()) {
-                    queue.push_back(atom);
+                let wanted = Wanted { atom, positive: true };
+                if met.insert(wanted.clone()) {
+                    queue.push_back(wanted);
                 }
             }
             if proposal.is_new() {
-                add_if_new(proposal.into_schema(&atom), model, &mut known, &mut names);
+                add_if_new(proposal.into_schema(&wanted), model, &mut known, &mut names);
             }
         }
-        imagination.unreachable.push(atom);
+        let worked_through = if wanted.positive { &mut imagination.unreachable } else { &mut imagination.undeleted };
+        worked_through.push(wanted.atom);
     }
     for index in 0..known.len() {
         let action = known[index].clone();

@@ -86,12 +86,13 @@ impl Draft {
     }
 }
 
-/// Names the actions by call and types, numbered on ties, and sorts them by name.
-pub(crate) fn name_actions(model: &mut ActionModel) {
+/// Names the actions by call and types, numbered on ties, and sorts them by name. Gives the names in the order before.
+pub(crate) fn name_actions(model: &mut ActionModel) -> Vec<Symbol> {
     let mut names = UniqueNames::default();
     let named: Vec<Symbol> = model.actions.iter().map(|action| names.of_action(action, model)).collect();
-    for (action, name) in model.actions.iter_mut().zip(named) {
-        action.name = name;
+    for (action, name) in model.actions.iter_mut().zip(&named) {
+        action.name = name.clone();
     }
     model.actions.sort_by(|a, b| a.name.cmp(&b.name));
+    named
 }

@@ -39,6 +39,8 @@ pub(crate) struct Counts {
     pub(crate) scored: usize,
     /// Pairs that could be merged in the end and are not, since failures speak against it.
     pub(crate) refused: RefusedMerges,
+    /// The places of the two of each in the order of all actions.
+    pub(crate) pairs: Vec<(usize, usize)>,
     /// What speaks against it.
     pub(crate) against: Against,
 }
@@ -56,14 +58,20 @@ pub(crate) fn to_fixed_point(
     for action in actions {
         groups.entry(shape(&action)).or_default().push(action);
     }
+    let mut first = 0;
     for group in groups.values_mut() {
-        refused.extend(loop {
+        let of_group = loop {
             let search = first_merge(group, evidence, &failures, hierarchy);
             counts.scored += search.scored;
             let Some((i, j, generalized)) = search.merge else { break search.refused };
             group[i] = generalized;
             group.remove(j);
-        });
+        };
+        for (i, j, generalized) in of_group {
+            counts.pairs.push((first + i, first + j));
+            refused.push(generalized);
+        }
+        first += group.len();
     }
     counts.refused = RefusedMerges { pairs: refused.len(), failures: failures.allowed_by(&refused, hierarchy) };
     counts.against = failures.against(&refused, hierarchy);
@@ -75,8 +83,8 @@ pub(crate) fn to_fixed_point(
 struct Search {
     /// The first two to be merged, and what they become.
     merge: Option<(usize, usize, Draft)>,
-    /// What the pairs before them would have become.
-    refused: Vec<Draft>,
+    /// The pairs before them, and what they would have become.
+    refused: Vec<(usize, usize, Draft)>,
     scored: usize,
 }
 
@@ -94,7 +102,7 @@ fn first_merge(group: &[Draft], evidence: &Observations, failures: &Failures<'_>
                 search.merge = Some((i, j, generalized));
                 return search;
             }
-            search.refused.push(generalized);
+            search.refused.push((i, j, generalized));
         }
     }
     search

@@ -34,16 +34,17 @@ mod outcome;
 mod predicates;
 mod score;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use thiserror::Error;
 use typelift_model::{
-    ActionModel, Evidence, Hierarchy, LearnedModel, NoActor, Observations, ParseConfig, RefusedMerges, Symbol, Witness,
+    ActionModel, Evidence, Hierarchy, LearnedModel, NoActor, Observations, ParseConfig, RefusedMerges, Symbol,
 };
 use typelift_world::{Dataset, Trace};
 
 pub use actor::{Part, part_of};
 pub use cluster::observe;
+pub use score::FailuresAgainst;
 pub use typelift_model::{Actor, LearnOptions as Options};
 
 use draft::Draft;
@@ -62,8 +63,10 @@ pub struct Report {
     pub scored_pairs: usize,
     /// Pairs of actions of the model that were not merged, since failures speak against it.
     pub refused: RefusedMerges,
-    /// Of each call of which there are such pairs, some places where failures were seen that speak against it.
-    pub against_merges: BTreeMap<Symbol, BTreeSet<Witness>>,
+    /// The names of the two of each pair, sorted.
+    pub not_merged: Vec<[Symbol; 2]>,
+    /// Of each call of which there are such pairs, the failures that speak against it.
+    pub against_merges: BTreeMap<Symbol, FailuresAgainst>,
     /// Transitions that were not executed, or changed nothing.
     pub failures: u64,
     /// Transitions of which nothing explains what changed.
@@ -160,6 +163,7 @@ pub fn learn(hierarchy: &Hierarchy, observations: &Observations, options: &Optio
         generalized: actions.len(),
         scored_pairs: counts.scored,
         refused: counts.refused,
+        not_merged: Vec::new(),
         against_merges: counts.against,
         failures: observations.failures(),
         unexplained: observations.unexplained.values().map(|(count, _)| count).sum(),
@@ -185,6 +189,13 @@ pub fn learn(hierarchy: &Hierarchy, observations: &Observations, options: &Optio
             Some(hierarchy.id(name.as_str()).ok_or_else(|| LearnError::UnknownType(name.clone()))?)
         }
     };
-    draft::name_actions(&mut model);
+    let names = draft::name_actions(&mut model);
+    let pair = |&(one, other): &(usize, usize)| {
+        let mut pair = [names[one].clone(), names[other].clone()];
+        pair.sort_unstable();
+        pair
+    };
+    report.not_merged = counts.pairs.iter().map(pair).collect();
+    report.not_merged.sort_unstable();
     Ok(Learned { model, report })
 }

@@ -17,7 +17,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use typelift_model::{Cluster, Hierarchy, LiftedAtom, Observations, PreStates, Support, Symbol, TypeId, Witness};
+use typelift_model::{
+    Cluster, Hierarchy, LiftedAtom, Observations, PreStates, Support, Symbol, TypeId, WITNESS_BOUND, Witness,
+};
 
 use crate::draft::Draft;
 
@@ -44,8 +46,17 @@ impl Score {
     }
 }
 
-/// Of each call of which actions were not merged, where failures were seen that speak against it.
-pub(crate) type Against = BTreeMap<Symbol, BTreeSet<Witness>>;
+/// Failures of a call that speak against merging actions of it.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct FailuresAgainst {
+    /// How many.
+    pub times: u64,
+    /// Some of the places where they were seen.
+    pub places: BTreeSet<Witness>,
+}
+
+/// Of each call of which actions were not merged, the failures that speak against it.
+pub(crate) type Against = BTreeMap<Symbol, FailuresAgainst>;
 
 /// The failures of an evidence, by call.
 pub(crate) struct Failures<'e> {
@@ -75,13 +86,19 @@ impl<'e> Failures<'e> {
         self.of_calls(actions).map(|(_, failure, actions)| failure.times_allowed(&actions, hierarchy)).sum()
     }
 
-    /// Of each call of these actions, some of the places where failures were seen that they wrongly allow.
+    /// Of each call of these actions, the failures that they wrongly allow, with the smallest places where they were seen.
     pub(crate) fn against(&self, actions: &[Draft], hierarchy: &Hierarchy) -> Against {
         let mut against = Against::new();
         for (call, failure, actions) in self.of_calls(actions) {
-            if failure.times_allowed(&actions, hierarchy) > 0 {
-                against.entry(call.clone()).or_default().extend(failure.seen.witnesses.iter().cloned());
+            let times = failure.times_allowed(&actions, hierarchy);
+            if times > 0 {
+                let of_call = against.entry(call.clone()).or_default();
+                of_call.times += times;
+                of_call.places.extend(failure.seen.witnesses.iter().cloned());
             }
+        }
+        for of_call in against.values_mut() {
+            of_call.places = std::mem::take(&mut of_call.places).into_iter().take(WITNESS_BOUND).collect();
         }
         against
     }

@@ -38,4 +38,8 @@ fn every_failure_that_speaks_against_a_merge_is_counted_once() {
     wash(&mut evidence, &hierarchy, "bowl", &["wet", "empty", "cold"], false);
     wash(&mut evidence, &hierarchy, "bowl", &[], false);
     assert_eq!(refused(&evidence), RefusedMerges { pairs: 3, failures: 4 });
+    let report = learn(&hierarchy, &evidence, &Options::default()).expect("known types").report;
+    let pairs = [["wash-cup", "wash-jar"], ["wash-cup", "wash-mug"], ["wash-jar", "wash-mug"]];
+    assert_eq!(report.not_merged, pairs);
+    assert_eq!(report.against_merges["wash"].times, 4);
 }

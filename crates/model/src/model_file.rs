@@ -132,6 +132,11 @@ pub(crate) struct AxiomFile {
     pub(crate) body: Vec<LiteralFile>,
 }
 
+/// What is not said to be deleted was to hold.
+const fn to_hold() -> bool {
+    true
+}
+
 #[derive(Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
@@ -144,6 +149,9 @@ pub(crate) enum ProvenanceFile {
         from: Symbol,
         replaced: Vec<(u32, Symbol, Symbol)>,
         goal: GroundAtom,
+        /// Whether it is imagined for an atom that was to hold; else for one that was to hold no longer.
+        #[serde(default = "to_hold", skip_serializing_if = "Clone::clone")]
+        positive: bool,
         observations: u64,
     },
     Substituted {
@@ -253,10 +261,11 @@ fn write_action(action: &ActionSchema, hierarchy: &Hierarchy, clusters: &[&Clust
         Provenance::Given => ProvenanceFile::Given,
         Provenance::Demonstrated(s) => ProvenanceFile::Demonstrated(support(s)),
         Provenance::Generalized(s) => ProvenanceFile::Generalized(s.iter().map(support).collect()),
-        Provenance::Imagined { from, replaced: r, goal, observations } => ProvenanceFile::Imagined {
+        Provenance::Imagined { from, replaced: r, goal, positive, observations } => ProvenanceFile::Imagined {
             from: from.clone(),
             replaced: replaced(r),
             goal: goal.clone(),
+            positive: *positive,
             observations: *observations,
         },
         Provenance::Substituted { from, replaced: r, following, observations } => ProvenanceFile::Substituted {

@@ -299,8 +299,8 @@ fn read_provenance(
         ProvenanceFile::Generalized(s) => {
             Provenance::Generalized(s.into_iter().map(support).collect::<Result<_, _>>()?)
         }
-        ProvenanceFile::Imagined { from, replaced: r, goal, observations } => {
-            Provenance::Imagined { from, replaced: replaced(r)?, goal, observations }
+        ProvenanceFile::Imagined { from, replaced: r, goal, positive, observations } => {
+            Provenance::Imagined { from, replaced: replaced(r)?, goal, positive, observations }
         }
         ProvenanceFile::Substituted { from, replaced: r, following, observations } => {
             Provenance::Substituted { from, replaced: replaced(r)?, following, observations }

@@ -43,6 +43,8 @@ pub enum Provenance {
         replaced: Vec<Replacement>,
         /// The unreachable atom it was imagined for.
         goal: GroundAtom,
+        /// Whether that was to hold; else it was to hold no longer.
+        positive: bool,
         /// Observations behind the learned action.
         observations: u64,
     },

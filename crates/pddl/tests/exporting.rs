@@ -65,6 +65,7 @@ fn model() -> ActionModel {
             from: "USE-saw".into(),
             replaced: vec![Replacement { parameter: 1, from: ty("Saw"), to: ty("machine") }],
             goal: ground("is_Ready(x)"),
+            positive: true,
             observations: 5,
         },
     };

@@ -47,6 +47,9 @@ pub struct UndeletedGoal<A = GroundAtom> {
     pub nearest: Option<Nearest>,
 }
 
+/// Goals of which it is said why they cannot be brought about; of more only how many there are.
+const MOST_GOALS: usize = 8;
+
 /// Why there is no plan. The planner says it of the model's atoms; [`in_words`](Explanation::in_words) of what these stand
 /// for in the text that the model was made from.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -108,18 +111,12 @@ impl Explanation {
 impl<A: Display + PartialEq> Display for Explanation<A> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Unreachable(goals) => {
-                let lines: Vec<String> = goals.iter().map(ToString::to_string).collect();
-                f.write_str(&lines.join("\n"))
-            }
+            Self::Unreachable(goals) => write_some(f, goals, "cannot be reached"),
             Self::Exclusive { one, other } => {
                 write!(f, "{one} and {other} cannot hold together: no state that can be reached holds both")
             }
             Self::ToldByPlanner => f.write_str("the planner says that there is none"),
-            Self::NeverDeleted(goals) => {
-                let lines: Vec<String> = goals.iter().map(ToString::to_string).collect();
-                f.write_str(&lines.join("\n"))
-            }
+            Self::NeverDeleted(goals) => write_some(f, goals, "cannot be deleted"),
             Self::NotTogether { missing, conflict } => {
                 f.write_str("no state that can be reached satisfies the goal")?;
                 let missing: Vec<String> = missing
@@ -132,6 +129,16 @@ impl<A: Display + PartialEq> Display for Explanation<A> {
                 conflict.iter().try_for_each(|conflict| write!(f, "\n{conflict}"))
             }
         }
+    }
+}
+
+/// A line for each of the first goals, and how many more there are of which the same is to be said.
+fn write_some(f: &mut fmt::Formatter<'_>, goals: &[impl Display], cannot: &str) -> fmt::Result {
+    let lines: Vec<String> = goals.iter().take(MOST_GOALS).map(ToString::to_string).collect();
+    f.write_str(&lines.join("\n"))?;
+    match goals.len().saturating_sub(MOST_GOALS) {
+        0 => Ok(()),
+        more => write!(f, "\n{more} more {cannot}"),
     }
 }
 
@@ -172,5 +179,20 @@ impl<A: Display> Display for UndeletedGoal<A> {
                 nearest.say(f, "delete")
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_many_goals_the_first_are_explained_and_the_others_counted() {
+        let goal = |i: usize| UnreachableGoal { atom: format!("done(job_{i})"), why: Unreached::NoAction };
+        let said = |n: usize| Explanation::Unreachable((0..n).map(goal).collect::<Vec<_>>()).to_string();
+        assert_eq!(said(MOST_GOALS).lines().count(), MOST_GOALS);
+        let of_many = said(MOST_GOALS + 3);
+        assert_eq!(of_many.lines().last(), Some("3 more cannot be reached"));
+        assert_eq!(of_many.lines().count(), MOST_GOALS + 1);
     }
 }

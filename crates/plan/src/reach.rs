@@ -43,6 +43,7 @@ pub struct Reachable {
     pub(crate) ops: Vec<RawOp>,
     pub(crate) axioms: Vec<RawOp>,
     unreached_goals: Vec<GroundAtom>,
+    undeleted_goals: Vec<GroundAtom>,
     computed: u64,
 }
 
@@ -53,8 +54,10 @@ impl Reachable {
     /// [`Stop`] if the budget ends it.
     pub fn of(model: &ActionModel, task: &Task, restrictions: &Restrictions, budget: &Budget) -> Result<Self, Stop> {
         let (facts, ops, axioms) = reach(model, task, restrictions, budget)?;
-        let mut this = Self { facts, ops, axioms, unreached_goals: Vec::new(), computed: 1 };
+        let mut this =
+            Self { facts, ops, axioms, unreached_goals: Vec::new(), undeleted_goals: Vec::new(), computed: 1 };
         this.unreached_goals = task.goal.required.iter().filter(|atom| !this.reaches(atom)).cloned().collect();
+        this.undeleted_goals = this.undeleted(model, task);
         Ok(this)
     }
 
@@ -74,7 +77,7 @@ impl Reachable {
         loop {
             let mut this = Self::of(model, &scopes.restrict(task), restrictions, budget)?;
             computed += 1;
-            if scopes.is_whole() || this.unreached_goals.is_empty() {
+            if scopes.is_whole() || this.unreached_goals.is_empty() && this.undeleted_goals.is_empty() {
                 this.computed = computed;
                 return Ok(this);
             }
@@ -85,6 +88,24 @@ impl Reachable {
     /// GetUnreachableGoals: goal atoms that cannot be reached, in the goal's order.
     pub fn unreached_goals(&self) -> &[GroundAtom] {
         &self.unreached_goals
+    }
+
+    /// Atoms that hold, are not to hold in the end, and are deleted by nothing that is reached, in the goal's order.
+    pub fn undeleted_goals(&self) -> &[GroundAtom] {
+        &self.undeleted_goals
+    }
+
+    /// Works these out. What follows from others is no effect, and not judged.
+    fn undeleted(&self, model: &ActionModel, task: &Task) -> Vec<GroundAtom> {
+        let derived = model.derived_predicates();
+        let deletes = |op: &RawOp, fact: FactId| {
+            op.effects.iter().any(|effect| effect.fact == fact && !effect.adds)
+                && !op.effects.iter().any(|effect| effect.fact == fact && effect.adds && effect.condition.is_empty())
+        };
+        let is_deleted =
+            |atom: &GroundAtom| self.facts.find(atom).is_some_and(|fact| self.ops.iter().any(|op| deletes(op, fact)));
+        let held = task.goal.forbidden.iter().filter(|atom| task.init.holds(atom));
+        held.filter(|atom| !derived.contains(&atom.predicate) && !is_deleted(atom)).cloned().collect()
     }
 
     /// Whether an atom is reached.

@@ -151,7 +151,7 @@
 //! let mut recorder = Recorder::new(folder, "acted", TraceHeader::default());
 //! let account = run(&mut episode, &mut world, &reset, &mut parser, &mut approve, &mut events, &mut [&mut recorder])?;
 //! assert_eq!(account.ending, Ending::Solved);
-//! assert!(matches!(events.last(), Some(Event::Ended { solved: true })));
+//! assert!(matches!(events.last(), Some(Event::Ended { solved: true, .. })));
 //!
 //! // Learn from that as well.
 //! let acted = read_dataset(&[folder.into()], demonstrations.hierarchy, Default::default(), &Default::default())?;

@@ -1,10 +1,9 @@
 //! How an episode went.
 
-use std::collections::BTreeSet;
-
 use serde::{Deserialize, Serialize};
 use typelift_agent::{
-    Account, Avoided, Ending, Episode, Failure, GivenUp, LastResorts, SeenDone, StepResult, StoppedAt, Suspect,
+    Account, Avoided, Ending, Episode, Failure, GivenUp, LastResorts, Remembered, SeenDone, StepResult, StoppedAt,
+    Suspect,
 };
 use typelift_model::{GroundAtom, GroundCall, Plan, Symbol};
 use typelift_plan::Explanation;
@@ -105,8 +104,10 @@ pub struct ExclusionView {
     /// What.
     #[serde(flatten)]
     pub suspect: Suspect,
-    /// The failure that led to it, in words.
+    /// The first failure that led to it, in words.
     pub reason: String,
+    /// All of them, in order, each once.
+    pub reasons: Vec<String>,
     /// How many failures led to it.
     pub count: u64,
 }
@@ -120,7 +121,7 @@ impl AccountView {
             task: task.to_owned(),
             solved: account.solved(),
             ending: account.ending.word().to_owned(),
-            why: why_not(account, &[]),
+            why: why_not(account, &account.failures),
             reasons: match &account.ending {
                 Ending::NoPlan(explanation) => Some(explanation.clone()),
                 _ => None,
@@ -140,7 +141,10 @@ impl AccountView {
             stopped_at: account.stopped_at.clone(),
             excluded: suspects
                 .into_iter()
-                .map(|(suspect, why)| ExclusionView { suspect, reason: why.reason, count: why.count })
+                .map(|(suspect, Remembered { reasons, count })| {
+                    let reason = reasons.first().cloned().unwrap_or_default();
+                    ExclusionView { suspect, reason, reasons, count }
+                })
                 .collect(),
         }
     }
@@ -210,8 +214,9 @@ fn why_not(account: &Account, told: &[Failure]) -> Option<String> {
         Ending::Solved => return None,
         Ending::NoPlan(explanation) if account.avoided.is_empty() => format!("nothing left to try: {explanation}"),
         Ending::NoPlan(explanation) => {
-            let avoided = all_avoided(&account.avoided, told).join("\n  ");
-            format!("nothing left to try without what is excluded:\n  {avoided}\n{explanation}")
+            let mut lines = all_avoided(&account.avoided, told);
+            lines.extend(no_longer_avoided(&account.avoided, told));
+            format!("nothing left to try without what is excluded:\n  {}\n{explanation}", lines.join("\n  "))
         }
         Ending::Circular => "the plan that is left went as expected before, from this very state, and did not lead to \
                              the goal: something happens besides what the model says"
@@ -219,37 +224,78 @@ fn why_not(account: &Account, told: &[Failure]) -> Option<String> {
         Ending::ProposalLimit(n) => format!("gave up after {}", count(*n, "proposal")),
         Ending::Stopped(stop) => match &account.stopped_at {
             None => stop.to_string(),
-            Some(stopped_at) => format!("{stop} {}", place(stopped_at)),
+            Some(stopped_at) => format!("{stop} {}", stopped_place(stopped_at)),
         },
     })
 }
 
-/// All that is excluded; what reads the same stands there once.
+/// All that is excluded, each once and in order, with the failures that it follows from.
 fn all_avoided(all: &[Avoided], told: &[Failure]) -> Vec<String> {
-    let mut said = BTreeSet::new();
-    let lines = all.iter().map(|avoiding| avoided(avoiding, told));
-    lines.filter(|line| said.insert(line.clone())).collect()
+    let mut found: Vec<(String, Vec<&str>)> = Vec::new();
+    for avoided in all {
+        for what in excluded_by(avoided, told) {
+            let at = found.iter().position(|(known, _)| *known == what).unwrap_or_else(|| {
+                found.push((what, Vec::new()));
+                found.len() - 1
+            });
+            let reasons = &mut found[at].1;
+            if !reasons.contains(&avoided.reason.as_str()) {
+                reasons.push(&avoided.reason);
+            }
+        }
+    }
+    let lines = found.into_iter().map(|(what, reasons)| {
+        let after: Vec<String> = reasons.iter().flat_map(|reason| after(reason, &what, told)).collect();
+        format!("{what}, after {}", after.join(", and "))
+    });
+    lines.collect()
+}
+
+/// What one failure, or one word of a person, has excluded; if nothing is to blame, the very same action.
+fn excluded_by(Avoided { reason, by_person, suspects }: &Avoided, told: &[Failure]) -> Vec<String> {
+    let by = if *by_person { "by your word: " } else { "" };
+    let failure = told.iter().find(|failure| failure.in_words() == *reason);
+    match (suspects.is_empty(), failure) {
+        (false, _) => suspects.iter().map(|suspect| format!("{by}{suspect}")).collect(),
+        (true, Some(failure)) => vec![format!("{by}{} again", failure.call)],
+        (true, None) => vec![format!("{by}the same action again")],
+    }
+}
+
+/// The failures that a reason is of, by their places where they are told already, with the call unless `what` names it.
+fn after(reason: &str, what: &str, told: &[Failure]) -> Vec<String> {
+    let these = told.iter().filter(|failure| failure.in_words() == reason);
+    let at = |failure: &Failure| match failure.call.to_string() {
+        call if what.contains(&call) => place(failure),
+        call => format!("{}: {call}", place(failure)),
+    };
+    let places: Vec<String> = these.map(at).collect();
+    if places.is_empty() { vec![reason.to_owned()] } else { places }
+}
+
+/// What was excluded when it failed and is no longer, since what came later spoke against something else.
+fn no_longer_avoided(all: &[Avoided], told: &[Failure]) -> Option<String> {
+    let mut dropped: Vec<String> = Vec::new();
+    for suspect in told.iter().flat_map(|failure| &failure.suspects) {
+        let what = suspect.to_string();
+        if !all.iter().any(|avoided| avoided.suspects.contains(suspect)) && !dropped.contains(&what) {
+            dropped.push(what);
+        }
+    }
+    (!dropped.is_empty()).then(|| format!("no longer excluded: {}", dropped.join(", ")))
+}
+
+/// Where a step failed.
+fn place(failure: &Failure) -> String {
+    format!("proposal {}, step {}", failure.proposal, failure.step)
 }
 
 /// Where an episode was stopped.
-fn place(StoppedAt { proposal, step, steps, call, begun }: &StoppedAt) -> String {
+fn stopped_place(StoppedAt { proposal, step, steps, call, begun }: &StoppedAt) -> String {
     let step = format!("step {step} of {steps} of proposal {proposal}, {call}");
     match begun {
         true => format!("during {step}: what came of it was not observed"),
         false => format!("before {step}"),
-    }
-}
-
-/// What is excluded after a failure, or by a person's word, and after which, unless that is told already.
-fn avoided(avoided: &Avoided, told: &[Failure]) -> String {
-    let Avoided { reason, by_person, suspects } = avoided;
-    let by = if *by_person { "by your word: " } else { "" };
-    let suspects: Vec<String> = suspects.iter().map(ToString::to_string).collect();
-    match (told.iter().find(|failure| failure.in_words() == *reason), suspects.is_empty()) {
-        (Some(failure), true) => format!("{by}{} again", failure.call),
-        (Some(_), false) => format!("{by}{}", suspects.join(", and ")),
-        (None, true) => format!("{by}the same action again, after {reason}"),
-        (None, false) => format!("{by}{}, after {reason}", suspects.join(", and ")),
     }
 }
 
@@ -262,7 +308,7 @@ pub(crate) fn although(reported: Verdict) -> String {
 }
 
 /// The account of a task in lines: how it ended, what failed and was excluded, unless that was `told` as it happened, and
-/// why it is not solved.
+/// why it is not solved, which names failures of this task by their places.
 pub fn summary(task: &str, account: &Account, planning_ms: u128, told: bool) -> Vec<Text> {
     let mut lines = vec![headline(task, account, planning_ms)];
     lines.extend(failures(account, told));
@@ -273,7 +319,7 @@ pub fn summary(task: &str, account: &Account, planning_ms: u128, told: bool) -> 
         let what = "  actions were used although some of their effects held already, since nothing else was left";
         lines.push(Text::new().plain(what));
     }
-    let why = why_not(account, if told { &[] } else { &account.failures });
+    let why = why_not(account, &account.failures);
     lines.extend(why.iter().flat_map(|why| why.lines()).map(|line| Text::new().plain(format!("  {line}"))));
     let notes = notes(&account.goal_type_mismatches, &account.given_up).into_iter();
     lines.extend(notes.map(|note| Text::new().plain("  ").with(Role::Warning, "note").plain(format!(": {note}"))));
@@ -286,7 +332,7 @@ pub fn broken_off(task: &str, account: &Account, planning_ms: u128, told: bool) 
     let head = Text::new().with(Role::Heading, task).plain("  ").with(Role::Bad, "broken off");
     let mut lines = vec![head.plain(format!(": {}", counted(account, planning_ms)))];
     lines.extend(failures(account, told));
-    lines.extend(account.stopped_at.iter().map(|at| Text::new().plain(format!("  {}", place(at)))));
+    lines.extend(account.stopped_at.iter().map(|at| Text::new().plain(format!("  {}", stopped_place(at)))));
     lines
 }
 
@@ -294,7 +340,7 @@ pub fn broken_off(task: &str, account: &Account, planning_ms: u128, told: bool) 
 fn failures(account: &Account, told: bool) -> Vec<Text> {
     let mut lines = Vec::new();
     for failure in account.failures.iter().filter(|_| !told) {
-        let place = format!("proposal {}, step {}", failure.proposal, failure.step);
+        let place = place(failure);
         let Failure { reason, missed, added, deleted, .. } = failure;
         let reason = reason.as_ref().map(|reason| format!(" ({reason})")).unwrap_or_default();
         let what = format!("  {}: {}{reason}", failure.call, failure.result.in_words(missed, added, deleted));
@@ -331,15 +377,60 @@ fn headline(task: &str, account: &Account, planning_ms: u128) -> Text {
 
 #[cfg(test)]
 mod tests {
+    use typelift_plan::Exclusion;
+
     use super::*;
+
+    fn avoiding(reason: &str, suspects: Vec<Suspect>) -> Avoided {
+        Avoided { reason: reason.to_owned(), by_person: false, suspects }
+    }
+
+    fn suspect(object: &str) -> Suspect {
+        Suspect::Object(Exclusion { object: object.into(), call: Some("weld".into()) })
+    }
+
+    /// Welding this failed in this proposal, and this was blamed for it then.
+    fn failure(proposal: u64, object: &str, blamed: &str) -> Failure {
+        Failure {
+            proposal,
+            step: 2,
+            action: "weld".into(),
+            call: GroundCall { name: "weld".into(), args: vec![object.into()] },
+            record: None,
+            result: StepResult::Tried(Verdict::Refused),
+            reason: Some("no gas".to_owned()),
+            missed: Vec::new(),
+            added: Vec::new(),
+            deleted: Vec::new(),
+            imagined: false,
+            suspects: vec![suspect(blamed)],
+        }
+    }
 
     #[test]
     fn what_is_excluded_twice_is_said_once() {
-        let avoiding = |reason: &str| Avoided { reason: reason.to_owned(), by_person: false, suspects: Vec::new() };
-        let all = ["weld(a): \"no gas\"", "weld(b): \"no gas\"", "weld(a): \"no gas\""].map(avoiding);
+        let all = ["weld(a): \"no gas\"", "weld(b): \"no gas\"", "weld(a): \"no gas\""];
         assert_eq!(
-            all_avoided(&all, &[]),
-            ["the same action again, after weld(a): \"no gas\"", "the same action again, after weld(b): \"no gas\""]
+            all_avoided(&all.map(|reason| avoiding(reason, Vec::new())), &[]),
+            ["the same action again, after weld(a): \"no gas\", and weld(b): \"no gas\""]
         );
+    }
+
+    #[test]
+    fn what_is_excluded_now_is_said_with_the_places_of_the_failures_that_were_told() {
+        let told = [failure(1, "rod_1", "rod_1"), failure(2, "rod_2", "torch_1"), failure(4, "rod_1", "torch_1")];
+        let of = |failure: &Failure, object: &str| avoiding(&failure.in_words(), vec![suspect(object)]);
+        let earlier = avoiding("weld(rod_9): \"no power\"", vec![suspect("torch_1"), suspect("socket_1")]);
+        let all = [of(&told[0], "torch_1"), of(&told[1], "torch_1"), of(&told[2], "torch_1"), earlier];
+        assert_eq!(
+            all_avoided(&all, &told),
+            [
+                "torch_1 from weld, after proposal 1, step 2: weld(rod_1), and proposal 4, step 2: weld(rod_1), and \
+                 proposal 2, step 2: weld(rod_2), and weld(rod_9): \"no power\"",
+                "socket_1 from weld, after weld(rod_9): \"no power\"",
+            ]
+        );
+        assert_eq!(no_longer_avoided(&all, &told), Some("no longer excluded: rod_1 from weld".to_owned()));
+        assert_eq!(no_longer_avoided(&[of(&told[0], "rod_1"), of(&told[1], "torch_1")], &told), None);
     }
 }

@@ -156,8 +156,12 @@ fn origin(action: &ActionSchema, hierarchy: &Hierarchy) -> String {
         Provenance::Generalized(support) => {
             format!("{observations} of {}", count(support.len() as u64, "individual action"))
         }
-        Provenance::Imagined { from, replaced, goal, .. } => {
-            format!("imagined for {goal}: {}, from {from}, {observations}", describe_replacements(replaced, hierarchy))
+        Provenance::Imagined { from, replaced, goal, positive, .. } => {
+            let not = if *positive { "" } else { "not " };
+            format!(
+                "imagined for {not}{goal}: {}, from {from}, {observations}",
+                describe_replacements(replaced, hierarchy)
+            )
         }
         Provenance::Substituted { from, replaced, following, .. } => {
             format!("follows {following}: {}, from {from}, {observations}", describe_replacements(replaced, hierarchy))

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 use typelift_model::{GroundAtom, GroundCall};
-use typelift_world::{Finding, Inspection, Tried};
+use typelift_world::{BrokenOffAt, Finding, Inspection, Tried};
 
 use crate::text::{Role, Text, count};
 
@@ -24,7 +24,7 @@ pub struct InspectionView {
     pub tried: Vec<TriedView>,
     /// What is wrong.
     pub findings: Vec<FindingView>,
-    /// The request that was not answered, if the environment ended, or was stopped, before all was tried.
+    /// The request at which it was broken off, if the environment failed, or was stopped, before all was tried.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub broken_off: Option<String>,
 }
@@ -75,7 +75,7 @@ impl InspectionView {
             predicates: inspection.predicates.iter().map(ToString::to_string).collect(),
             tried: inspection.tried.iter().map(TriedView::of).collect(),
             findings: inspection.findings.iter().map(FindingView::of).collect(),
-            broken_off: inspection.broken_off.clone(),
+            broken_off: inspection.broken_off.as_ref().map(|at| at.asked.clone()),
         }
     }
 }
@@ -124,8 +124,9 @@ pub fn inspection_lines(name: &str, can_reset: bool, inspection: &Inspection) ->
         lines.push(Text::new().with(role, word).plain(format!("  {}: {}", finding.place, finding.problem)));
         lines.push(Text::new().plain("  ").with(Role::Aside, finding.problem.hint()));
     }
-    if let Some(asked) = &inspection.broken_off {
-        lines.push(Text::new().with(Role::Warning, "broken off").plain(format!("  {asked} was not answered")));
+    if let Some(BrokenOffAt { asked, answered }) = &inspection.broken_off {
+        let why = if *answered { "the answer cannot be used" } else { "it was not answered" };
+        lines.push(Text::new().with(Role::Warning, "broken off").plain(format!("  at {asked}: {why}")));
     }
     lines.push(verdict(inspection));
     lines

@@ -88,7 +88,10 @@ pub fn why_lines(view: &WhyView) -> Vec<Text> {
             Culprit::Type => format!("{} may not be accepted in its place", suspect.what),
             Culprit::Pair => format!("{} may not go together", suspect.what),
             Culprit::Object => format!("{} may be out of order", suspect.what),
-            Culprit::Literal => format!("{} does not hold, and may be needed", suspect.what),
+            Culprit::Literal => match suspect.what.strip_prefix("not ") {
+                Some(atom) => format!("{atom} holds, and may have to be false"),
+                None => format!("{} does not hold, and may be needed", suspect.what),
+            },
             Culprit::Chance => "chance".to_owned(),
         };
         Text::new().plain(format!("  {:>3.0} %  {what}", 100.0 * suspect.share))

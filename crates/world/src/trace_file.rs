@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::io::BufRead;
 use std::path::Path;
 
-use typelift_model::{GroundAtom, HashMap, State, Symbol, SymbolPool, TypeId, check_name, did_you_mean};
+use typelift_model::{GroundAtom, HashMap, State, Symbol, SymbolPool, TypeId, check_name, nearest};
 
 use crate::{FileError, Parser, Scene, TRACE_FORMAT, Trace, TraceAction, TraceHeader, TraceItem, TraceReader, json};
 
@@ -57,6 +57,11 @@ pub fn trace_from<R: BufRead>(
     Ok(Trace { warnings: reader.warnings(), source: Some(reader.source()), ..checked.trace })
 }
 
+/// What to do about an action that mentions what the state before it does not show.
+pub(crate) const ON_DEMAND: &str = "Learning refuses an action on what the state before it does not show. What the action itself \
+                                    makes needs an id beforehand: show a pool of ids from the start, with an attribute that \
+                                    says which are there.";
+
 /// A trace, checked as it grows.
 struct Checked<'a> {
     path: &'a Path,
@@ -99,7 +104,15 @@ impl Checked<'_> {
                 "the action {} mentions `{missing}`, which is not in the state before it (line {state_line})",
                 action.call
             );
-            let hint = did_you_mean(missing.as_str(), state.into_iter().flat_map(|s| s.keys()));
+            let unnumbered = |name: &str| name.trim_end_matches(|c: char| c.is_ascii_digit()).to_owned();
+            let hint = match nearest(missing.as_str(), state.into_iter().flat_map(|s| s.keys())) {
+                // A number that is new may be one that the action gives.
+                Some(near) if unnumbered(near.as_str()) == unnumbered(missing.as_str()) => {
+                    format!("Did you mean `{near}`? {ON_DEMAND}")
+                }
+                Some(near) => format!("Did you mean `{near}`?"),
+                None => ON_DEMAND.to_owned(),
+            };
             return Err(FileError::at_line(self.path, line, what).with_hint(hint));
         }
         self.trace.actions.push(action);

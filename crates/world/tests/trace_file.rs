@@ -176,6 +176,14 @@ fn what_is_impossible_is_refused() {
         "a.jsonl:3: the action GO(a, A) mentions `A`, which is not in the state before it (line 2)"
     );
     assert_eq!(error.hint.as_deref(), Some("Did you mean `a`?"));
+    let hint = |of: &str| {
+        let made = missing.replace("\"A\"", of);
+        let state = STATE.replace("\"a\"", "\"block_1\"");
+        read(&[HEADER, &state, &made.replace("\"a\"", "\"block_1\""), &state]).expect_err("no such entity").hint
+    };
+    let (numbered, unlike) = (hint("\"block_2\"").expect("a hint"), hint("\"pyramid\"").expect("a hint"));
+    assert!(numbered.starts_with("Did you mean `block_1`? ") && numbered.ends_with(&unlike), "{numbered}");
+    assert!(unlike.contains("a pool of ids from the start"), "{unlike}");
     let two = r#"{"state":{"entities":[{"id":"a","type":"block","attributes":{"x":"y","x_y":true}}]}}"#;
     let error = read(&[HEADER, two]).expect_err("two sources");
     assert!(error.to_string().starts_with("a.jsonl:2: entity a: the predicate `x_y` has two sources: "), "{error}");

@@ -67,10 +67,27 @@ fn a_learned_model_is_its_export_and_no_other() {
     let ended = folder.run("diff kitchen.json shown.pddl");
     assert_eq!(ended.code, 12, "{ended}");
     assert!(ended.out.contains("    - not holding_holds(?x0,?x2)\n"), "{ended}");
+    assert_eq!(ended.err, "hint: with --not-strict they are the same: the domain is not strict.\n");
+    let ended = folder.run("diff kitchen.json exported/domain.pddl");
+    assert_eq!(ended.err, "", "{ended}");
     folder
         .run("learn K/demos/cut_banana.jsonl K/demos/blend_carrot.jsonl --types K/types.pddl -o part.json -q")
         .succeeds();
     let ended = folder.run("diff kitchen.json part.json");
     assert_eq!(ended.code, 12, "{ended}");
     insta::assert_snapshot!(ended.out);
+}
+
+#[test]
+fn models_act_alike_whatever_types_their_predicates_are_known_of() {
+    let folder = Folder::new();
+    folder.write("a.pddl", LOADING);
+    folder.write("b.pddl", LOADING.replace("(wet ?c - crate)", "(wet ?c - object)"));
+    let ended = folder.run("diff a.pddl b.pddl");
+    let said = "- a.pddl\n+ b.pddl\nthe same, but for the types of which predicates are known\npredicates\n  \
+                - wet(crate)\n  + wet(object)\n";
+    assert_eq!((ended.code, ended.out.as_str()), (0, said), "{ended}");
+    folder.write("c.pddl", LOADING.replace("(wet ?c - crate)", "(wet ?c - crate) (sold ?c - crate)"));
+    let ended = folder.run("diff a.pddl c.pddl");
+    assert_eq!(ended.code, 12, "another goal can be asked for: {ended}");
 }

@@ -225,3 +225,52 @@ fn what_changes_every_time_is_said() {
         assert!(!told.contains("every time"), "{why}: {told}");
     }
 }
+
+/// A trace in which a robot presses a pump, which is switched or not: its mode, and how another thing hums.
+fn pressing(is_switched: bool, names: &[(&str, &str)]) -> String {
+    let state = |on: &str, other: &str, hum: &str| {
+        format!(
+            r#"{{"state":{{"entities":[{{"id":"robot_1","type":"robot"}},
+               {{"id":"pump_1","type":"pump","attributes":{{{on}"mode":"{other}"}}}},
+               {{"id":"fan_1","type":"fan","attributes":{{"hum":"{hum}"}}}}]}}}}"#
+        )
+        .replace('\n', "")
+    };
+    let mut lines = vec![r#"{"format":"trace/1"}"#.to_owned()];
+    for (i, (mode, hum)) in names.iter().enumerate() {
+        if i > 0 {
+            lines.push(r#"{"action":{"name":"press","args":["robot_1","pump_1"]}}"#.to_owned());
+        }
+        let on = if is_switched { format!(r#""on":{},"#, i % 2 == 1) } else { String::new() };
+        lines.push(state(&on, mode, hum));
+    }
+    lines.join("\n")
+}
+
+#[test]
+fn only_what_changes_by_itself_is_advised_to_be_ignored() {
+    let folder = Folder::new();
+    folder.write("t.json", r#"{"robot": "thing", "pump": "thing", "fan": "thing"}"#);
+    folder.write(
+        "fan.jsonl",
+        pressing(true, &[("A", "Low"), ("A", "Mid"), ("A", "High"), ("A", "Top"), ("A", "Max"), ("A", "Low")]),
+    );
+    folder.write(
+        "pump.jsonl",
+        pressing(false, &[("A", "Low"), ("B", "Low"), ("C", "Low"), ("D", "Low"), ("E", "Low"), ("A", "Low")]),
+    );
+    let ended = folder.run("learn fan.jsonl --types t.json --dry-run");
+    ended.succeeds();
+    assert!(ended.err.contains("if it does not matter, --ignore hum\n"), "{ended}");
+    let ended = folder.run("learn pump.jsonl --types t.json --dry-run");
+    ended.succeeds();
+    assert!(ended.err.contains("most is kept apart by `mode`, which is all that some action changes"), "{ended}");
+    assert!(!ended.err.contains("--ignore"), "{ended}");
+    let ended = folder.run("learn pump.jsonl --types t.json --ignore mode --dry-run");
+    ended.succeeds();
+    let lost = "warning: no action is learned of press: it changed nothing but what is ignored, or nothing at all\n";
+    assert!(ended.err.contains(lost), "{ended}");
+    let ended = folder.run("learn fan.jsonl --types t.json --ignore hum --dry-run");
+    ended.succeeds();
+    assert!(!ended.err.contains("no action is learned"), "{ended}");
+}

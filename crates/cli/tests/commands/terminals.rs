@@ -94,6 +94,7 @@ fn lamp(folder: &Folder, slow: &str, seconds: &str) {
         format!(
             r#"n=0; state=off.json
 while read -r request; do
+  case "$request" in *'"op":"reset"'*) state=off.json;; esac
   n=$((n+1))
   case "$request" in *'"op":"{slow}'*) sleep {seconds}; echo "the {slow} was slow" >&2; sleep {seconds};; esac
   case "$request" in *'"op":"act"'*) state=on.json;; esac
@@ -187,7 +188,7 @@ fn an_interrupted_trial_says_what_was_found_so_far() {
                 out,
                 "lamp: can be reset; 2 entities, 2 types, 0 predicates\n\
                  may hurt  light(robot_2, lamp_1): there is no entity `robot_2`\n  Did you mean `robot_1`?\n\
-                 broken off  light(robot_2, lamp_1) was not answered\n\
+                 broken off  at light(robot_2, lamp_1): it was not answered\n\
                  1 thing may hurt learning, unless it is intended\n"
             );
         } else {

@@ -19,9 +19,9 @@ use matching::{Pair, matching};
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ListDifference {
     /// What only the first has.
-    pub only_first: BTreeSet<String>,
+    pub only_first: Vec<String>,
     /// What only the second has.
-    pub only_second: BTreeSet<String>,
+    pub only_second: Vec<String>,
 }
 
 /// How an action differs in two models; the second's parameters are called as the first's.
@@ -58,7 +58,8 @@ pub struct ActionDifference {
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ModelDifference {
-    /// Whether they do not.
+    /// Whether they act alike: then nothing differs, but perhaps of which types a predicate is known, and what follows from
+    /// that for goals, and from how much they were learned.
     pub same: bool,
     /// Who acts by default, `none` if nobody does.
     pub actor: ListDifference,
@@ -89,9 +90,10 @@ pub fn difference(first: &ActionModel, second: &ActionModel, beside_pddl: bool) 
         ListDifference::of(&set(first), &set(second))
     };
     let pairs = matching(first, second, &fold);
-    let alone = |actions: &[ActionSchema], matched: &BTreeSet<usize>| -> BTreeSet<String> {
+    let alone = |actions: &[ActionSchema], matched: &BTreeSet<usize>| -> Vec<String> {
         let alone = actions.iter().enumerate().filter(|(i, _)| !matched.contains(i));
-        alone.map(|(_, action)| action.name.to_string()).collect()
+        let names: BTreeSet<String> = alone.map(|(_, action)| action.name.to_string()).collect();
+        names.into_iter().collect()
     };
     let actions = ListDifference {
         only_first: alone(&first.actions, &pairs.iter().map(|pair| pair.first).collect()),
@@ -107,7 +109,11 @@ pub fn difference(first: &ActionModel, second: &ActionModel, beside_pddl: bool) 
         changed: pairs.iter().map(|pair| changes(pair, first, second, &fold)).filter(|c| !c.is_empty(&fold)).collect(),
         evidence: ListDifference::default(),
     };
-    found.same = found == ModelDifference::default();
+    let mut of_acting = ModelDifference { predicates: ListDifference::default(), ..found.clone() };
+    if !found.predicates.is_empty() {
+        of_acting.predicates = compare(arities);
+    }
+    found.same = of_acting == ModelDifference::default();
     found
 }
 
@@ -115,13 +121,16 @@ pub fn difference(first: &ActionModel, second: &ActionModel, beside_pddl: bool) 
 pub fn evidence_difference(first: &Evidence, second: &Evidence) -> ListDifference {
     let amounts = |evidence: &Evidence| {
         let total = evidence.total();
-        BTreeSet::from([
+        [
             count(evidence.sources().len() as u64, "demonstration"),
             count(total.transitions, "transition"),
             count(total.failures(), "failure"),
-        ])
+        ]
     };
-    ListDifference::of(&amounts(first), &amounts(second))
+    let (of_first, of_second) = (amounts(first), amounts(second));
+    let differing = of_first.into_iter().zip(of_second).filter(|(one, other)| one != other);
+    let (only_first, only_second) = differing.unzip();
+    ListDifference { only_first, only_second }
 }
 
 impl ListDifference {
@@ -132,12 +141,13 @@ impl ListDifference {
         }
     }
 
-    fn is_empty(&self) -> bool {
+    /// Whether nothing differs.
+    pub fn is_empty(&self) -> bool {
         self.only_first.is_empty() && self.only_second.is_empty()
     }
 
     /// How much differs.
-    fn len(&self) -> usize {
+    pub fn len(&self) -> usize {
         self.only_first.len() + self.only_second.len()
     }
 }
@@ -163,6 +173,11 @@ fn predicates(model: &ActionModel) -> Vec<String> {
         format!("{name}({})", types.join(", "))
     });
     said.collect()
+}
+
+/// Predicates, each with the number of its arguments.
+fn arities(model: &ActionModel) -> Vec<String> {
+    model.predicates.iter().map(|(name, types)| format!("{name}/{}", types.len())).collect()
 }
 
 fn axioms(model: &ActionModel) -> Vec<String> {
@@ -251,7 +266,9 @@ pub fn difference_lines(found: &ModelDifference, names: [&str; 2]) -> Vec<Text> 
         lines.push(Text::new().with(Role::Good, format!("+ {}", names[1])));
     }
     if found.same {
-        lines.push(Text::new().with(Role::Good, "the same"));
+        let as_known =
+            if found.predicates.is_empty() { "" } else { ", but for the types of which predicates are known" };
+        lines.push(Text::new().with(Role::Good, "the same").plain(as_known));
     }
     let parts = [
         ("actor", &found.actor),

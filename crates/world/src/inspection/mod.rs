@@ -60,8 +60,17 @@ pub struct Inspection {
     pub tried: Vec<Tried>,
     /// What is wrong, each thing once.
     pub findings: Vec<Finding>,
-    /// The request that was not answered, if the environment ended before all was tried: the rest is what was found so far.
-    pub broken_off: Option<String>,
+    /// Where it was broken off, if the environment failed before all was tried: the rest is what was found so far.
+    pub broken_off: Option<BrokenOffAt>,
+}
+
+/// The request at which an environment failed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct BrokenOffAt {
+    /// The request.
+    pub asked: String,
+    /// Whether an answer came: one that is none by the protocol, or that it could not be done.
+    pub answered: bool,
 }
 
 /// An environment that failed while it was tried.
@@ -87,8 +96,8 @@ pub struct Tried {
     pub change: Option<Change>,
 }
 
-/// Sets an environment up twice alike, if it can be set up, observes it several times in a row, carries out the calls, and
-/// says what of all this would hurt learning. The cost is that of comparing these states.
+/// Sets an environment up twice alike, if it can be set up, observes it several times in a row, carries out the calls, sets it up
+/// once more after these, and says what of all this would hurt learning. The cost is that of comparing these states.
 ///
 /// # Errors
 /// [`BrokenOff`] if the environment itself fails, with what was found until then.
@@ -100,8 +109,11 @@ pub fn inspect(world: &mut dyn World, options: &InspectOptions) -> Result<Inspec
     let tried = inspector.try_all(world, options);
     inspector.note_unread_keys(world.unread_keys());
     match tried {
-        Ok(()) => Ok(inspector.finish(true)),
-        Err(error) => Err(BrokenOff { error, found: Box::new(inspector.finish(false)) }),
+        Ok(()) => Ok(inspector.finish(None)),
+        Err(error) => {
+            let answered = matches!(error, WorldError::Misspoke { .. } | WorldError::Failed { .. });
+            Err(BrokenOff { error, found: Box::new(inspector.finish(Some(answered))) })
+        }
     }
 }
 
@@ -170,6 +182,29 @@ impl Inspector {
             before = self.try_call(world, call, before.as_ref())?;
         }
         self.compare_changes();
+        if world.can_reset() && !options.calls.is_empty() {
+            self.compare_reset_after_actions(world, options, set_up.last().and_then(Option::as_ref))?;
+        }
+        Ok(())
+    }
+
+    /// Sets it up once more: what the actions did must be undone.
+    fn compare_reset_after_actions(
+        &mut self,
+        world: &mut dyn World,
+        options: &InspectOptions,
+        before: Option<&State>,
+    ) -> Result<(), WorldError> {
+        "reset after the actions".clone_into(&mut self.asked);
+        let scene = world.reset(&options.reset)?;
+        let after = self.look("reset after the actions", &scene);
+        let told = self.findings.iter().any(|finding| matches!(finding.problem, Problem::NotRepeatable { .. }));
+        if let (Some(before), Some(after)) = (before, after.as_ref())
+            && let Some(change) = compare(before, after, &self.flickering_predicates())
+            && !told
+        {
+            self.find("reset", Problem::NotUndone { change });
+        }
         Ok(())
     }
 
@@ -321,13 +356,22 @@ impl Inspector {
         before: Option<&State>,
     ) -> Result<Option<State>, WorldError> {
         let place = call.to_string();
-        let missing = call.args.iter().filter(|arg| !self.types_of_entities.contains_key(*arg));
-        for entity in missing.cloned().collect::<Vec<_>>() {
-            let near = nearest(entity.as_str(), self.types_of_entities.keys()).cloned();
-            self.find(&place, Problem::NoSuchEntity { entity, near });
-        }
+        let shown: BTreeSet<Symbol> = self.types_of_entities.keys().cloned().collect();
+        let missing: Vec<&Symbol> = call.args.iter().filter(|arg| !shown.contains(*arg)).collect();
         self.asked.clone_from(&place);
-        let acted = world.act(call)?;
+        let acted = world.act(call);
+        let executed = acted.as_ref().is_ok_and(|acted| acted.executed);
+        for entity in missing {
+            let problem = match executed {
+                true => Problem::MadeOnDemand { entity: entity.clone() },
+                false => {
+                    let near = nearest(entity.as_str(), &shown).cloned();
+                    Problem::NoSuchEntity { entity: entity.clone(), near }
+                }
+            };
+            self.find(&place, problem);
+        }
+        let acted = acted?;
         let after = self.look(&place, &acted.scene);
         let observed = self.observe(world)?;
         let observed = self.look("observe", &observed);
@@ -336,7 +380,6 @@ impl Inspector {
             .as_ref()
             .zip(after.as_ref())
             .map(|(before, after)| compare(before, after, &self.flickering_predicates()).unwrap_or_default());
-        let executed = acted.executed;
         let problem = change.as_ref().and_then(|change| match executed {
             _ if !change.objects.is_empty() => Some(Problem::EntitiesChange { objects: change.objects.clone() }),
             true if change.is_empty() => Some(Problem::ChangesNothing),
@@ -356,7 +399,8 @@ impl Inspector {
         }
     }
 
-    fn finish(mut self, is_complete: bool) -> Inspection {
+    /// What was found; if it was broken off, with whether an answer came to what was asked last.
+    fn finish(mut self, broken_off: Option<bool>) -> Inspection {
         for problem in self.sightings.problems() {
             self.find("state", problem);
         }
@@ -364,7 +408,7 @@ impl Inspector {
             self.find("state", Problem::DiffersInCase { one, other });
         }
         // What was not met yet might have been.
-        if is_complete {
+        if broken_off.is_none() {
             for name in self.parser.unmatched_ignores().cloned().collect::<Vec<_>>() {
                 self.find("state", Problem::NothingIgnored { name });
             }
@@ -375,7 +419,7 @@ impl Inspector {
             predicates: self.predicates,
             tried: self.tried,
             findings: self.findings,
-            broken_off: (!is_complete).then_some(self.asked),
+            broken_off: broken_off.map(|answered| BrokenOffAt { asked: self.asked, answered }),
         }
     }
 }

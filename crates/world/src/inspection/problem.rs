@@ -164,6 +164,18 @@ pub enum Problem {
         /// The entity that may have been meant.
         near: Option<Symbol>,
     },
+    /// An action was executed with something that no state before it shows.
+    #[error("it was executed, though no state before it shows `{entity}`")]
+    MadeOnDemand {
+        /// Its name.
+        entity: Symbol,
+    },
+    /// A reset after the actions does not give what the one before them gave.
+    #[error("a reset after the actions differs from the one before them: {change}")]
+    NotUndone {
+        /// How.
+        change: Change,
+    },
     /// An attribute or relation that is to be left out was never met.
     #[error("`{name}`, which is to be left out, was never met")]
     NothingIgnored {
@@ -265,6 +277,8 @@ impl Problem {
             Self::ChangesEveryTime { .. } => "changes_every_time",
             Self::ChangesUnexecuted { .. } => "changes_unexecuted",
             Self::NoSuchEntity { .. } => "no_such_entity",
+            Self::MadeOnDemand { .. } => "made_on_demand",
+            Self::NotUndone { .. } => "not_undone",
             Self::NothingIgnored { .. } => "nothing_ignored",
             Self::LeftOut(_) => "left_out",
             Self::DoubtfulParent(_) => "doubtful_parent",
@@ -326,8 +340,9 @@ impl Problem {
             Self::Flickers { .. } => "Each such change makes one action look like several. Give it two thresholds \
                                       (hysteresis), or leave it out, with --ignore for example."
                 .to_owned(),
-            Self::EntitiesChange { .. } => "Nothing is learned from such a step. Report every entity from the start, and \
-                                            say with an attribute whether it is there."
+            Self::EntitiesChange { .. } => "Nothing is learned from such a step. Report every entity from the start, a pool of \
+                                            ids of those that are made on demand, and say with an attribute whether it is \
+                                            there."
                 .to_owned(),
             Self::ChangesNothing => "Learning takes this for a failure. What an action changes must be a relation, a word, \
                                      or true or false."
@@ -341,6 +356,10 @@ impl Problem {
                 .to_owned(),
             Self::NoSuchEntity { near: Some(near), .. } => format!("Did you mean `{near}`?"),
             Self::NoSuchEntity { .. } => "Try it with one that the state shows.".to_owned(),
+            Self::MadeOnDemand { .. } => crate::ON_DEMAND.to_owned(),
+            Self::NotUndone { .. } => "A reset sets everything up anew, whatever was done before: else no task begins as it is \
+                                       written, and --restart goes on from where it was."
+                .to_owned(),
             Self::NothingIgnored { .. } => "Is it spelt as the states spell it?".to_owned(),
             Self::LeftOut(left_out) => left_out.hint(),
             Self::DoubtfulParent(parent) => parent.hint(),

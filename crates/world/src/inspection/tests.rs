@@ -7,12 +7,14 @@ use crate::Acted;
 struct Scripted {
     scenes: VecDeque<Scene>,
     executes: bool,
+    /// What it was set up as; from the third time on it is set up as the second time.
+    set_up: Vec<Scene>,
 }
 
 impl Scripted {
     fn showing(scenes: &[&str]) -> Self {
         let scene = |json: &&str| serde_json::from_str(json).unwrap_or_else(|error| panic!("{json}: {error}"));
-        Self { scenes: scenes.iter().map(scene).collect(), executes: true }
+        Self { scenes: scenes.iter().map(scene).collect(), executes: true, set_up: Vec::new() }
     }
 
     fn next(&mut self) -> Scene {
@@ -27,7 +29,12 @@ impl World for Scripted {
     }
 
     fn reset(&mut self, _: &Reset) -> Result<Scene, WorldError> {
-        Ok(self.next())
+        if let [_, second, ..] = self.set_up.as_slice() {
+            return Ok(second.clone());
+        }
+        let scene = self.next();
+        self.set_up.push(scene.clone());
+        Ok(scene)
     }
 
     fn observe(&mut self) -> Result<Scene, WorldError> {
@@ -279,8 +286,85 @@ fn what_was_found_before_it_broke_off_is_kept() {
         let mut world = Mortal(Scripted::showing(&scenes), answers);
         let BrokenOff { error, found } = inspect(&mut world, &options).expect_err("it ends");
         assert_eq!(error, WorldError::Gone { account: "gone".to_owned() });
-        assert_eq!((found.broken_off.as_deref(), found.findings.len()), (Some(asked), findings), "{found:?}");
+        let at = BrokenOffAt { asked: asked.to_owned(), answered: false };
+        assert_eq!((found.broken_off.as_ref(), found.findings.len()), (Some(&at), findings), "{found:?}");
     }
+}
+
+/// A world that answers an action, and not as the protocol says.
+struct Misspeaking(Scripted);
+
+impl World for Misspeaking {
+    fn name(&self) -> String {
+        self.0.name()
+    }
+
+    fn reset(&mut self, reset: &Reset) -> Result<Scene, WorldError> {
+        self.0.reset(reset)
+    }
+
+    fn observe(&mut self) -> Result<Scene, WorldError> {
+        self.0.observe()
+    }
+
+    fn act(&mut self, _: &GroundCall) -> Result<Acted, WorldError> {
+        Err(WorldError::Misspoke { account: "no state".to_owned() })
+    }
+}
+
+#[test]
+fn an_answer_that_cannot_be_used_is_one() {
+    let mut world = Misspeaking(Scripted::showing(&[&pump("", "")]));
+    let BrokenOff { found, .. } = inspect(&mut world, &calling()).expect_err("it misspeaks");
+    assert_eq!(found.broken_off, Some(BrokenOffAt { asked: "start(pump_1)".to_owned(), answered: true }));
+}
+
+/// A world in which an action switches the pump on, and a reset leaves it as it is.
+struct Keeping {
+    on: bool,
+}
+
+impl World for Keeping {
+    fn name(&self) -> String {
+        "keeping".to_owned()
+    }
+
+    fn reset(&mut self, _: &Reset) -> Result<Scene, WorldError> {
+        self.observe()
+    }
+
+    fn observe(&mut self) -> Result<Scene, WorldError> {
+        Ok(serde_json::from_str(&pump(&format!("\"on\":{}", self.on), "")).expect("a scene"))
+    }
+
+    fn act(&mut self, _: &GroundCall) -> Result<Acted, WorldError> {
+        self.on = true;
+        Ok(Acted { scene: self.observe()?, executed: true, reason: None })
+    }
+}
+
+#[test]
+fn a_reset_that_keeps_what_was_done_is_found_after_the_actions() {
+    let found = inspect(&mut Keeping { on: false }, &calling()).expect("it does not fail").findings;
+    let expected = "reset: a reset after the actions differs from the one before them: +on(pump_1)";
+    assert_eq!(found.iter().map(|f| format!("{}: {}", f.place, f.problem)).collect::<Vec<_>>(), [expected]);
+    assert!(found[0].problem.is_certain());
+    let without_actions = inspect(&mut Keeping { on: false }, &InspectOptions::default()).expect("it does not fail");
+    assert_eq!(without_actions.findings, []);
+}
+
+#[test]
+fn what_an_action_makes_on_demand_is_told_from_what_is_misspelt() {
+    let on = [pump(r#""on":false"#, ""), pump(r#""on":true"#, "")];
+    let scenes: Vec<&str> = std::iter::repeat_n(on[0].as_str(), BEFORE_CALLS).chain([on[1].as_str()]).collect();
+    let call = GroundCall { name: Symbol::new("start"), args: vec!["pump_2".into()] };
+    let options = InspectOptions { calls: vec![call], ..InspectOptions::default() };
+    assert_eq!(
+        findings(Scripted::showing(&scenes), &options),
+        ["start(pump_2): it was executed, though no state before it shows `pump_2`"]
+    );
+    let world = Scripted { executes: false, ..Scripted::showing(&[&on[0]]) };
+    assert_eq!(findings(world, &options), ["start(pump_2): there is no entity `pump_2`"]);
 }
 
 #[test]
