@@ -53,7 +53,7 @@ impl Schema {
                 },
                 "const" => value == said,
                 "enum" => list(said).contains(value),
-                "minimum" => value.as_f64() >= said.as_f64(),
+                "minimum" => value.as_f64().is_none_or(|value| Some(value) >= said.as_f64()),
                 "required" => value.as_object().is_none_or(|o| list(said).iter().all(|key| has_key(o, key))),
                 "properties" => {
                     self.fit_properties(keywords, value, at, open)?;

@@ -70,7 +70,7 @@ fn blames_the_tool(failure: &Failure, useless: bool) -> bool {
 fn object(suspect: &Suspect) -> Option<&Symbol> {
     match suspect {
         Suspect::Object(exclusion) => Some(&exclusion.object),
-        Suspect::Types(_) | Suspect::Condition(_) => None,
+        Suspect::Types(_) | Suspect::Condition(_) | Suspect::Around(_) => None,
     }
 }
 

@@ -12,7 +12,8 @@ use typelift_plan::Ban;
 use typelift_world::{Expected, Record, TraceAction, Verdict};
 
 use crate::account::{Ending, Failure, SeenDone};
-use crate::deed::Failed;
+use crate::blame::BlameRule;
+use crate::deed::{Failed, surroundings};
 use crate::episode::{Episode, EpisodeError, Phase};
 use crate::event::{Event, Observer};
 use crate::execution::Execution;
@@ -82,9 +83,13 @@ impl Episode {
         }
         self.note_seen_done(reported, reason);
         if let Some(deed) = deed {
-            self.experience.succeeded(deed);
+            let around = surroundings(&deed, &self.model, &before);
+            self.experience.succeeded(deed, around);
         }
         if let Some(execution) = &mut self.execution {
+            if execution.retries > 0 {
+                self.experience.retries.note(true);
+            }
             execution.next_step += 1;
             execution.retries = 0;
         }
@@ -161,7 +166,10 @@ impl Episode {
         before: &State,
         observer: &mut dyn Observer,
     ) -> Result<Command, EpisodeError> {
-        let most = self.options.retries();
+        let most = match (self.options.retries, self.options.blame) {
+            (None, BlameRule::Belief) if !self.experience.retries.may_help() => 0,
+            _ => self.options.retries(),
+        };
         if let Some(execution) = &mut self.execution
             && execution.retries < most
             && execution.missing_precondition(&self.state).is_none()
@@ -291,6 +299,9 @@ impl Episode {
             ..Failed::of(deed, &step.call.name, &self.model, before, &self.goal, why.clone())
         };
         self.experience.failed(Failed { task: self.task, ..failed });
+        if execution.retries > 0 {
+            self.experience.retries.note(false);
+        }
         self.reconsider();
         failure.suspects = self.experience.failures().last().into_iter().flat_map(Failed::suspects).cloned().collect();
         for suspect in &failure.suspects {

@@ -8,11 +8,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use typelift_belief::{ActionBelief, Cause, Deed, Participant, Tried};
+use typelift_belief::{ActionBelief, Cause, Deed, Participant, Run, Surrounding};
 use typelift_model::{ActionModel, ActionSchema, GroundAtom, LiftedAtom, Observations, Symbol, Term, TypeId};
 use typelift_plan::{Exclusion, TypeExclusion};
 
-use crate::deed::{Failed, Success};
+use crate::around::ConditionAround;
+use crate::deed::Failed;
 use crate::objection::Objection;
 use crate::suspect::{Certainty, Condition, Suspect, Suspected};
 
@@ -41,9 +42,7 @@ pub(crate) struct Blame<'a> {
 
 impl Blame<'_> {
     /// What is to blame for each failure. Nothing may be: then only the very same action is not tried again.
-    pub(crate) fn of_each(&self, failures: &[Failed], worked: &[Success], task: u64) -> Vec<Vec<Suspected>> {
-        let nobody = BTreeSet::new();
-        let run = all_tried(failures, worked, task, &nobody);
+    pub(crate) fn of_each(&self, failures: &[Failed], run: &Run<'_>, task: u64) -> Vec<Vec<Suspected>> {
         let mut beliefs: BTreeMap<&Symbol, ActionBelief> = BTreeMap::new();
         let mut of_one = |failed: &Failed| match (&failed.objection, self.rule) {
             (Some(objection), _) => certain(objected(failed, objection)),
@@ -56,9 +55,9 @@ impl Blame<'_> {
             (None, BlameRule::Belief) => {
                 let Some(schema) = self.action_of(&failed.deed) else { return Vec::new() };
                 let hierarchy = &self.model.hierarchy;
-                let believed = || ActionBelief::new(schema, self.evidence, &run, self.model);
+                let believed = || ActionBelief::new(schema, self.evidence, run, self.model);
                 let belief = beliefs.entry(&schema.name).or_insert_with(believed);
-                let causes = belief.blame(schema, &tried(failed, task), &run, hierarchy);
+                let causes = belief.blame(schema, &failed.tried(task), run, hierarchy);
                 self.avoidable(causes, schema, failed)
             }
         };
@@ -130,6 +129,7 @@ impl Blame<'_> {
             }
             Cause::Missing(atom) => condition(deed, schema, &atom, true),
             Cause::Present(atom) => condition(deed, schema, &atom, false),
+            Cause::Around(surrounding, held) => around(deed, surrounding, !held),
             Cause::Chance => None,
         }
     }
@@ -147,36 +147,10 @@ fn extent(cause: &Cause) -> usize {
     match cause {
         Cause::Together(_) => 0,
         Cause::Object { .. } => 1,
-        Cause::Missing(_) | Cause::Present(_) => 2,
+        Cause::Missing(_) | Cause::Present(_) | Cause::Around(..) => 2,
         Cause::Type(..) => 3,
         Cause::Chance => 4,
     }
-}
-
-/// All that was tried: what worked, and what failed, but for what a person rejected. `nobody` acts in what worked.
-pub(crate) fn all_tried<'d>(
-    failures: &'d [Failed],
-    worked: &'d [Success],
-    task: u64,
-    nobody: &'d BTreeSet<Symbol>,
-) -> Vec<Tried<'d>> {
-    let failed = failures.iter().filter(|failed| !failed.rejected && failed.objection.is_none());
-    let worked = worked.iter().map(|Success { deed, count, when }| Tried {
-        deed,
-        worked: true,
-        count: *count,
-        when: *when,
-        tasks_ago: 0,
-        actors: nobody,
-        in_goal: nobody,
-    });
-    worked.chain(failed.map(|failed| tried(failed, task))).collect()
-}
-
-pub(crate) fn tried(failed: &Failed, task: u64) -> Tried<'_> {
-    let Failed { deed, count, when, actors, in_goal, .. } = failed;
-    let tasks_ago = task.saturating_sub(failed.task);
-    Tried { deed, worked: false, count: *count, when: *when, tasks_ago, actors, in_goal }
 }
 
 /// That a literal over an action's parameters has to hold, or must not; none where the call does not name them.
@@ -189,6 +163,18 @@ fn condition(deed: &Deed, schema: &ActionSchema, atom: &LiftedAtom, holds: bool)
     let atom =
         GroundAtom { predicate: atom.predicate.clone(), args: atom.args.iter().map(object).collect::<Option<_>>()? };
     Some(Suspect::Condition(Condition { call: deed.call.clone(), adds: deed.adds.clone(), atom, holds, args }))
+}
+
+/// That something has to hold around who takes part, or must not; none where the call does not name whom it is about.
+fn around(deed: &Deed, surrounding: Surrounding, holds: bool) -> Option<Suspect> {
+    let named = |participant: u32| {
+        let participant = deed.participants.get(participant as usize)?;
+        Some((participant.place?, participant.object.clone()))
+    };
+    let args = surrounding.participants().into_iter().map(|one| Some((one, named(one)?)));
+    let args = args.collect::<Option<BTreeMap<u32, (usize, Symbol)>>>()?;
+    let (call, adds) = (deed.call.clone(), deed.adds.clone());
+    Some(Suspect::Around(ConditionAround { call, adds, surrounding, holds, args }))
 }
 
 /// What is avoided because of what a person said.
@@ -242,9 +228,11 @@ fn types(deed: &Deed, participants: Vec<&Participant>) -> Option<Suspect> {
 mod tests {
     use std::sync::Arc;
 
+    use typelift_belief::Surroundings;
     use typelift_model::{ClusterKey, Cost, Effect, Hierarchy, LiftedCall, Literal, Parameter, Provenance, Support};
 
     use super::*;
+    use crate::deed::Success;
 
     /// `use(agent_1, TOOL, FOOD)` cuts; demonstrated with these tools and foods, three times each.
     fn model(demonstrated: &[(&str, &str)]) -> ActionModel {
@@ -312,6 +300,7 @@ mod tests {
             task: 1,
             ban: None,
             around: BTreeSet::new(),
+            surroundings: BTreeSet::new(),
             actors: ["agent_1".into()].into(),
             in_goal: ["nut_1".into(), "leek_1".into()].into(),
             not_made: BTreeSet::new(),
@@ -324,6 +313,11 @@ mod tests {
         }
     }
 
+    fn run<'d>(failures: &'d [Failed], worked: &'d [Success], around: &'d Surroundings, task: u64) -> Run<'d> {
+        let tried = worked.iter().map(Success::tried).chain(failures.iter().map(|failed| failed.tried(task)));
+        Run::new(&tried.collect::<Vec<_>>(), around)
+    }
+
     /// What is to blame for each failure where this was demonstrated, and those deeds have worked before (`when` under 10)
     /// or since.
     fn blamed(demonstrated: &[(&str, &str)], worked: &[(u64, Deed)], failures: &[Deed], task: u64) -> Vec<Vec<String>> {
@@ -333,7 +327,8 @@ mod tests {
         let worked: Vec<Success> =
             worked.iter().map(|(when, deed)| Success { deed: deed.clone(), count: 1, when: *when }).collect();
         let failures: Vec<Failed> = failures.iter().map(|deed| failed(deed.clone(), None)).collect();
-        let suspects = blame.of_each(&failures, &worked, task);
+        let none = Surroundings::default();
+        let suspects = blame.of_each(&failures, &run(&failures, &worked, &none, task), task);
         suspects.into_iter().map(|one| one.iter().map(|one| one.suspect.to_string()).collect()).collect()
     }
 
@@ -383,15 +378,40 @@ mod tests {
     }
 
     #[test]
+    fn what_lies_elsewhere_is_blamed_when_it_explains_what_nothing_else_does() {
+        let full = || BTreeSet::from([Surrounding::Something { property: "full".into(), ty: "toaster".into() }]);
+        let model = model(&FOODS);
+        let evidence = Observations::default();
+        let blame = Blame { rule: BlameRule::Belief, model: &model, evidence: &evidence };
+        let mut around = Surroundings::default();
+        let deeds = [("board_1", "leek_1"), ("board_2", "onion_1"), ("board_1", "kale_1"), ("knife_1", "leek_2")];
+        let deeds = deeds.map(|(tool, food)| deed("here", tool, food, &[]));
+        let worked = deeds.clone().map(|deed| Success { deed, count: 1, when: 5 });
+        deeds.iter().cycle().take(20).for_each(|deed| around.note(deed, BTreeSet::new()));
+        let failures: Vec<Failed> =
+            deeds.iter().map(|deed| Failed { surroundings: full(), ..failed(deed.clone(), None) }).collect();
+        let of_last = |failures: &[Failed]| -> Vec<String> {
+            let suspects = blame.of_each(failures, &run(failures, &worked, &around, 1), 1);
+            suspects.last().expect("one each").iter().map(|one| one.suspect.to_string()).collect()
+        };
+        assert_eq!(of_last(&failures[..3]), ["use while full(X) of some toaster X"]);
+        // Where it worked nevertheless, it is something else.
+        deeds.iter().for_each(|deed| around.note(deed, full()));
+        let otherwise = blame.of_each(&failures, &run(&failures, &worked, &around, 1), 1);
+        assert!(otherwise.iter().flatten().all(|one| !one.suspect.to_string().contains("full")), "{otherwise:?}");
+    }
+
+    #[test]
     fn things_of_one_name_in_two_places_are_two() {
         let (here, there) = (deed("here", "board_1", "leek_1", &[]), deed("there", "board_1", "leek_1", &[]));
         let board = |others: &[Deed]| {
             let model = model(&FOODS);
             let failures: Vec<Failed> =
                 [std::slice::from_ref(&here), others].concat().into_iter().map(|deed| failed(deed, None)).collect();
-            let run: Vec<Tried<'_>> = failures.iter().map(|failed| tried(failed, 1)).collect();
+            let none = Surroundings::default();
+            let run = run(&failures, &[], &none, 1);
             let belief = ActionBelief::new(&model.actions[0], &Observations::default(), &run, &model);
-            let causes = belief.blame(&model.actions[0], &run[0], &run, &model.hierarchy);
+            let causes = belief.blame(&model.actions[0], &failures[0].tried(1), &run, &model.hierarchy);
             let board =
                 causes.iter().find(|(cause, _)| matches!(cause, Cause::Object { object, .. } if *object == *"board_1"));
             board.expect("a cause").1
@@ -407,10 +427,11 @@ mod tests {
         let odds = |task| {
             let model = model(&FOODS);
             let failed = failed(failure[0].clone(), None);
-            let run = [tried(&failed, task)];
+            let none = Surroundings::default();
+            let run = run(std::slice::from_ref(&failed), &[], &none, task);
             let schema = &model.actions[0];
             let belief = ActionBelief::new(schema, &Observations::default(), &run, &model);
-            let causes = belief.blame(schema, &run[0], &run, &model.hierarchy);
+            let causes = belief.blame(schema, &failed.tried(task), &run, &model.hierarchy);
             let board =
                 causes.iter().find(|(cause, _)| matches!(cause, Cause::Object { object, .. } if *object == *"board_1"));
             board.expect("a cause").1
@@ -430,10 +451,9 @@ mod tests {
     fn by_the_papers_rule_it_is_whatever_took_part() {
         let (model, evidence) = (model(&FOODS), Observations::default());
         let blame = Blame { rule: BlameRule::Paper, model: &model, evidence: &evidence };
-        let worked = [Success { deed: deed("here", "board_1", "leek_1", &[]), count: 5, when: 1 }];
         let failed = Failed { in_goal: BTreeSet::new(), ..failed(deed("here", "board_1", "nut_1", &[]), None) };
         let said: Vec<String> =
-            blame.of_each(&[failed], &worked, 1)[0].iter().map(|one| one.suspect.to_string()).collect();
+            blame.of_each(&[failed], &Run::default(), 1)[0].iter().map(|one| one.suspect.to_string()).collect();
         assert_eq!(said, ["board_1 from use", "nut_1 from use"]);
     }
 
@@ -443,7 +463,7 @@ mod tests {
         let said = |objection| -> Vec<String> {
             let blame = Blame { rule: BlameRule::Belief, model: &model, evidence: &evidence };
             let failed = failed(deed("here", "board_1", "nut_1", &[]), Some(objection));
-            blame.of_each(&[failed], &[], 1)[0].iter().map(|one| one.suspect.to_string()).collect()
+            blame.of_each(&[failed], &Run::default(), 1)[0].iter().map(|one| one.suspect.to_string()).collect()
         };
         let nut = || vec!["nut_1".into()];
         assert_eq!(said(Objection::Broken { objects: vec![] }), ["board_1 from use"]);

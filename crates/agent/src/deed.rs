@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use serde::{Deserialize, Serialize};
-use typelift_belief::Deed;
+use typelift_belief::{Deed, Surrounding, Tried};
 use typelift_model::{ActionModel, Goal, GroundAtom, GroundCall, State, Symbol};
 use typelift_plan::Ban;
 
@@ -21,6 +21,19 @@ pub struct Success {
     pub count: u64,
     /// Its place in the order of all deeds, the last time.
     pub when: u64,
+}
+
+/// Nobody, and nothing.
+static NOBODY: BTreeSet<Symbol> = BTreeSet::new();
+static NOTHING: BTreeSet<Surrounding> = BTreeSet::new();
+
+impl Success {
+    /// It as something that was tried.
+    pub(crate) fn tried(&self) -> Tried<'_> {
+        let Self { deed, count, when } = self;
+        let (actors, in_goal, around) = (&NOBODY, &NOBODY, &NOTHING);
+        Tried { deed, worked: true, count: *count, when: *when, tasks_ago: 0, actors, in_goal, around }
+    }
 }
 
 /// A deed that failed, its retries too, or that a person rejected.
@@ -42,6 +55,9 @@ pub struct Failed {
     /// may yet work.
     #[serde(default, skip_serializing_if = "BTreeSet::is_empty")]
     pub around: BTreeSet<GroundAtom>,
+    /// What held around who took part, whoever that is.
+    #[serde(default, skip_serializing_if = "BTreeSet::is_empty")]
+    pub surroundings: BTreeSet<Surrounding>,
     /// Who acted: never to blame.
     pub actors: BTreeSet<Symbol>,
     /// Who the goal speaks of: rarely to blame.
@@ -85,6 +101,7 @@ impl Failed {
             task: 0,
             ban: None,
             around: around(&deed, &actors, model, before),
+            surroundings: surroundings(&deed, model, before),
             actors,
             in_goal: objects().filter(|object| goal.mentions(object)).cloned().collect(),
             not_made: BTreeSet::new(),
@@ -96,6 +113,13 @@ impl Failed {
             suspects: Vec::new(),
             deed,
         }
+    }
+
+    /// It as something that was tried, as it looks in a task.
+    pub(crate) fn tried(&self, task: u64) -> Tried<'_> {
+        let Self { deed, count, when, actors, in_goal, surroundings: around, .. } = self;
+        let tasks_ago = task.saturating_sub(self.task);
+        Tried { deed, worked: false, count: *count, when: *when, tasks_ago, actors, in_goal, around }
     }
 
     /// What is to blame, however sure that is.
@@ -132,10 +156,22 @@ impl Failed {
     }
 }
 
+/// What holds around who took part.
+pub(crate) fn surroundings(deed: &Deed, model: &ActionModel, state: &State) -> BTreeSet<Surrounding> {
+    let changing = changing(model);
+    let objects: Vec<Symbol> = deed.participants.iter().map(|participant| participant.object.clone()).collect();
+    Surrounding::of(&objects, state, &model.hierarchy, |predicate| changing.contains(predicate))
+}
+
+/// The predicates that some action changes.
+fn changing(model: &ActionModel) -> BTreeSet<&Symbol> {
+    let effects = model.actions.iter().flat_map(|schema| &schema.effects);
+    effects.map(|effect| &effect.literal.atom.predicate).collect()
+}
+
 /// What holds of who acts and of others than who took part, and can change.
 fn around(deed: &Deed, acting: &BTreeSet<Symbol>, model: &ActionModel, state: &State) -> BTreeSet<GroundAtom> {
-    let effects = model.actions.iter().flat_map(|schema| &schema.effects);
-    let changing: BTreeSet<&Symbol> = effects.map(|effect| &effect.literal.atom.predicate).collect();
+    let changing = changing(model);
     let took_part = |arg: &Symbol| deed.participants.iter().any(|participant| participant.object == *arg);
     let is_around = |atom: &&GroundAtom| {
         let of_actor = |arg: &Symbol| acting.contains(arg);

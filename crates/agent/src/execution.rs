@@ -9,7 +9,7 @@ use typelift_plan::Restrictions;
 
 use crate::outlook::Need;
 use crate::risk::Risk;
-use crate::suspect::Condition;
+use crate::suspect::Conditions;
 
 /// On what terms a plan is made.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -18,7 +18,7 @@ pub(crate) struct Terms {
     /// What is avoided.
     pub(crate) restrictions: Restrictions,
     /// What keeps actions from being used.
-    pub(crate) conditions: Vec<Condition>,
+    pub(crate) conditions: Conditions,
     /// Actions are used although some of their effects hold already, whatever the options say.
     pub(crate) relaxed: bool,
     /// What failed may be tried where what held around it then does not.
@@ -77,7 +77,8 @@ impl Execution {
             let gone = objects.iter().find(|object| !state.objects.contains_key(*object)).or(objects.first())?;
             return Some(gone.to_string());
         };
-        let (atom, positive) = action.unmet(state).next()?;
+        let state = self.model.with_derived(state);
+        let (atom, positive) = action.unmet(&state).next()?;
         Some(format!("{}{atom}", if *positive { "" } else { "not " }))
     }
 

@@ -1,7 +1,9 @@
 //! What was tried, and what came of it: plain data, from which follows what to avoid.
 
+use std::collections::BTreeSet;
+
 use serde::{Deserialize, Serialize};
-use typelift_belief::Deed;
+use typelift_belief::{Deed, Run, Surrounding, Surroundings, Tried};
 use typelift_model::{Hierarchy, State, Symbol, TypeId};
 use typelift_plan::{Ban, Restrictions};
 
@@ -10,7 +12,8 @@ use crate::blame::Blame;
 use crate::deed::{Failed, Success};
 use crate::objection::Objection;
 use crate::resort::CountedExclusions;
-use crate::suspect::{Certainty, Condition, Suspect};
+use crate::retries::Retries;
+use crate::suspect::{Certainty, Conditions, Suspect};
 
 /// Why something is avoided, and how often that was seen.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -31,8 +34,14 @@ pub struct Experience {
     deeds: u64,
     /// What worked, sorted.
     successes: Vec<Success>,
+    /// What held around what worked.
+    #[serde(default)]
+    surroundings: Surroundings,
     /// What failed, in order.
     failures: Vec<Failed>,
+    /// Whether it helped to try again what failed.
+    #[serde(default)]
+    pub(crate) retries: Retries,
 }
 
 impl Experience {
@@ -52,8 +61,9 @@ impl Experience {
         self.tasks
     }
 
-    /// Notes that something worked.
-    pub fn succeeded(&mut self, deed: Deed) {
+    /// Notes that something worked, and what held around it.
+    pub fn succeeded(&mut self, deed: Deed, around: BTreeSet<Surrounding>) {
+        self.surroundings.note(&deed, around);
         self.deeds += 1;
         let when = self.deeds;
         match self.successes.binary_search_by(|success| success.deed.cmp(&deed)) {
@@ -87,7 +97,7 @@ impl Experience {
             failed.suspects().any(|suspect| match suspect {
                 Suspect::Object(one) => is_here && one.object == *object,
                 Suspect::Types(types) => types.types.values().any(is_of),
-                Suspect::Condition(_) => false,
+                Suspect::Condition(_) | Suspect::Around(_) => false,
             })
         };
         let is_overruled = |failed: &Failed| failed.rejected && failed.deed.call == *call && speaks_against(failed);
@@ -111,10 +121,18 @@ impl Experience {
 
     /// Weighs anew what is to blame for each failure, with all that was tried until now.
     pub(crate) fn reconsider(&mut self, blame: &Blame<'_>) {
-        let suspects = blame.of_each(&self.failures, &self.successes, self.tasks);
+        let suspects = blame.of_each(&self.failures, &self.run(self.tasks), self.tasks);
         for (failed, suspects) in self.failures.iter_mut().zip(suspects) {
             failed.suspects = suspects;
         }
+    }
+
+    /// All that was tried, as it looks in a task, but for what a person rejected.
+    pub(crate) fn run(&self, task: u64) -> Run<'_> {
+        let failed = self.failures.iter().filter(|failed| !failed.rejected && failed.objection.is_none());
+        let worked = self.successes.iter().map(Success::tried);
+        let tried: Vec<Tried<'_>> = worked.chain(failed.map(|failed| failed.tried(task))).collect();
+        Run::new(&tried, &self.surroundings)
     }
 
     /// What worked, sorted.
@@ -145,14 +163,9 @@ impl Experience {
 
     /// What to avoid in the current task, in an instance: as a planner is told, and the conditions that keep actions
     /// from being used.
-    pub fn avoided(
-        &self,
-        instance: &Symbol,
-        state: &State,
-        counted: CountedExclusions,
-    ) -> (Restrictions, Vec<Condition>) {
+    pub fn avoided(&self, instance: &Symbol, state: &State, counted: CountedExclusions) -> (Restrictions, Conditions) {
         let mut restrictions = Restrictions::default();
-        let mut conditions = Vec::new();
+        let mut conditions = Conditions::default();
         for failed in &self.failures {
             let (ban, suspects) = self.avoided_after(failed, instance, state, counted);
             restrictions.banned.extend(ban.cloned());
@@ -167,12 +180,15 @@ impl Experience {
                     Suspect::Types(exclusion) => {
                         restrictions.types.insert(exclusion);
                     }
-                    Suspect::Condition(condition) => conditions.push(condition),
+                    Suspect::Condition(condition) => conditions.named.push(condition),
+                    Suspect::Around(condition) => conditions.around.push(condition),
                 }
             }
         }
-        conditions.sort_unstable();
-        conditions.dedup();
+        conditions.named.sort_unstable();
+        conditions.named.dedup();
+        conditions.around.sort_unstable();
+        conditions.around.dedup();
         (restrictions, conditions)
     }
 
@@ -213,7 +229,7 @@ impl Experience {
         let mut suspects: Vec<Suspect> = suspects.map(|suspected| suspected.suspect.clone()).collect();
         suspects.retain(|suspect| is_here || !suspect.belongs_to_instance());
         // Where a literal is to blame, it may be tried again as soon as that is otherwise.
-        let is_conditional = suspects.iter().any(|suspect| matches!(suspect, Suspect::Condition(_)));
+        let is_conditional = suspects.iter().any(Suspect::is_conditional);
         let mut ban = failed.banned_in(self.tasks, state).filter(|_| is_here && !is_conditional);
         let elsewhere = failed.elsewhere();
         if counted == CountedExclusions::Elsewhere && ban.is_some() && !elsewhere.is_empty() {
@@ -256,16 +272,17 @@ mod tests {
                 call: call.clone(),
                 adds: adds.clone().into(),
                 participants: Vec::new(),
-                held: std::collections::BTreeSet::new(),
+                held: BTreeSet::new(),
             },
             count: 1,
             when: 0,
             task,
             ban: None,
-            around: std::collections::BTreeSet::new(),
+            around: BTreeSet::new(),
+            surroundings: BTreeSet::new(),
             actors: ["agent_1".into()].into(),
             in_goal: ["nut_1".into()].into(),
-            not_made: std::collections::BTreeSet::new(),
+            not_made: BTreeSet::new(),
             wanted: None,
             objection,
             useless: false,

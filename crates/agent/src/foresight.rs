@@ -9,11 +9,11 @@ use typelift_belief::{ActionBelief, CHANCE, Culprit, Deed};
 use typelift_model::{ActionModel, Budget, GroundAction, GroundCall, Plan, State, Symbol};
 use typelift_plan::Outcome;
 
-use crate::blame::{Blame, all_tried, tried};
-use crate::deed::Failed;
+use crate::blame::Blame;
+use crate::deed::{Failed, surroundings};
 use crate::episode::Episode;
+use crate::execution::Terms;
 use crate::propose::{ProposeError, attempt};
-use crate::suspect::with_conditions;
 
 /// What may have caused a failure, and how likely that is, of all that may have.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -29,20 +29,20 @@ impl Episode {
     /// tried; none for a step that no learned action says anything of. `model` is the one that it was made with. In time of what
     /// was tried for each learned action of the plan.
     pub fn foretold(&self, plan: &Plan, model: &ActionModel) -> Vec<Option<f64>> {
-        let (blame, nobody) = (self.blame(), BTreeSet::new());
-        let run = all_tried(self.experience.failures(), self.experience.successes(), self.task, &nobody);
+        let (blame, run) = (self.blame(), self.experience.run(self.task));
         let mut beliefs: BTreeMap<Symbol, ActionBelief> = BTreeMap::new();
         let mut state = self.state.clone();
         let foretold = plan.steps.iter().map(|step| {
             let schema = model.action(step.action.as_str())?;
             let hierarchy = &model.hierarchy;
             let deed = Deed::of(step, schema, &state, &self.instance, hierarchy);
+            let around = surroundings(&deed, &self.model, &state);
             if let Ok(action) = schema.instantiate(&step.objects, &state, hierarchy) {
                 advance(&mut state, action);
             }
             let learned = blame.action_of(&deed)?;
             let believed = || ActionBelief::new(learned, &self.evidence, &run, &self.model);
-            beliefs.entry(learned.name.clone()).or_insert_with(believed).foretold(learned, &deed, &run, hierarchy)
+            beliefs.entry(learned.name.clone()).or_insert_with(believed).foretold(learned, &deed, &around, hierarchy)
         });
         foretold.collect()
     }
@@ -50,11 +50,11 @@ impl Episode {
     /// What may have caused a failure, by all that was learned from and tried, the likeliest first; nothing if no learned action
     /// says anything of it. In time of what was tried.
     pub fn explanations(&self, failed: &Failed) -> Vec<Explanation> {
-        let (blame, nobody) = (self.blame(), BTreeSet::new());
+        let blame = self.blame();
         let Some(schema) = blame.action_of(&failed.deed) else { return Vec::new() };
-        let run = all_tried(self.experience.failures(), self.experience.successes(), self.task, &nobody);
+        let run = self.experience.run(self.task);
         let belief = ActionBelief::new(schema, &self.evidence, &run, &self.model);
-        let causes = belief.blame(schema, &tried(failed, self.task), &run, &self.model.hierarchy);
+        let causes = belief.blame(schema, &failed.tried(self.task), &run, &self.model.hierarchy);
         let by_chance = (Culprit::Chance, CHANCE / (1.0 - CHANCE));
         let mut odds: Vec<(Culprit, f64)> = causes.into_iter().map(|(cause, odds)| (cause.culprit(), odds)).collect();
         odds.push(by_chance);
@@ -77,8 +77,9 @@ impl Episode {
         let mut restrictions = execution.terms.restrictions.clone();
         restrictions.calls.extend(calls.iter().cloned());
         let (task, options) = self.asked(&execution.terms, &self.state);
-        let model = with_conditions(&self.model, &execution.terms.conditions);
-        let proposal = attempt(&model, &task, &restrictions, &options, &execution.terms.loosened, &[], budget)?;
+        let model = self.model_on(&execution.terms);
+        let Terms { loosened, risks, .. } = &execution.terms;
+        let proposal = attempt(&model, &task, &restrictions, &options, loosened, risks, budget)?;
         Ok(match proposal.outcome {
             Outcome::Solved(plan) => Some((plan, proposal.model)),
             _ => None,

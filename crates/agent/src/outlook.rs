@@ -5,10 +5,10 @@ use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
-use typelift_belief::{ActionBelief, Cause, Tried};
+use typelift_belief::{ActionBelief, Cause, Run};
 use typelift_model::{ActionModel, ActionSchema, LiftedAtom, Literal, Observations, State, Symbol, TypeId};
 
-use crate::blame::{SETTLED, all_tried};
+use crate::blame::SETTLED;
 use crate::experience::Experience;
 use crate::risk::{Risk, RiskOf};
 
@@ -49,8 +49,7 @@ impl Outlook<'_> {
         if weight == 0 || self.experience.failures().is_empty() && self.evidence.negatives.is_empty() {
             return outlooks;
         }
-        let nobody = BTreeSet::new();
-        let run = all_tried(self.experience.failures(), self.experience.successes(), self.task, &nobody);
+        let run = self.experience.run(self.task);
         let types: BTreeSet<TypeId> = state.objects.values().copied().collect();
         for schema in &self.model.actions {
             let belief = ActionBelief::new(schema, self.evidence, &run, self.model);
@@ -65,7 +64,7 @@ impl Outlook<'_> {
         schema: &ActionSchema,
         belief: &ActionBelief,
         types: &BTreeSet<TypeId>,
-        run: &[Tried<'_>],
+        run: &Run<'_>,
         instance: &Symbol,
         weight: u32,
     ) -> Vec<Risk> {
@@ -82,7 +81,7 @@ impl Outlook<'_> {
             };
             found.insert(at, odds);
         }
-        for failure in run.iter().filter(|tried| !tried.worked && tried.deed.instance == *instance) {
+        for failure in run.failed().iter().filter(|failed| failed.deed.instance == *instance) {
             for (cause, odds) in belief.blame(schema, failure, run, hierarchy) {
                 let Cause::Object { object, .. } = cause else { continue };
                 let place = failure.deed.participants.iter().position(|participant| participant.object == object);

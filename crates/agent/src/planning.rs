@@ -15,7 +15,6 @@ use crate::options::Options;
 use crate::outlook::{Outlooks, with_needs};
 use crate::propose::{Proposal, ProposeError, attempt, loosened_and_widened};
 use crate::resort::{CountedExclusions, Resort};
-use crate::suspect::with_conditions;
 use crate::turn::Command;
 
 /// The expansions of a search for a way to try elsewhere what failed: it is a last hope, and often there is no such way.
@@ -342,8 +341,8 @@ impl Episode {
     }
 
     /// The model with what keeps actions from being used on these terms.
-    fn model_on(&self, terms: &Terms) -> Cow<'_, ActionModel> {
-        with_needs(with_conditions(&self.model, &terms.conditions), &terms.needs)
+    pub(crate) fn model_on(&self, terms: &Terms) -> Cow<'_, ActionModel> {
+        with_needs(terms.conditions.in_model(&self.model), &terms.needs)
     }
 
     pub(crate) fn asked(&self, terms: &Terms, state: &State) -> (Task, Options) {

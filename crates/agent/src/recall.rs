@@ -8,7 +8,7 @@ use typelift_plan::Ban;
 use typelift_world::{Expected, Trace, TraceAction, Verdict};
 
 use crate::account::failure_in_words;
-use crate::deed::Failed;
+use crate::deed::{Failed, surroundings};
 use crate::experience::Experience;
 use crate::monitor::StepResult;
 
@@ -39,7 +39,8 @@ impl Experience {
             let deed = Deed::recorded(&action.call, &expected.args, adds, before, recalled.instance, hierarchy);
             tries += 1;
             if verdict == Verdict::AsExpected {
-                self.succeeded(deed);
+                let around = surroundings(&deed, model, before);
+                self.succeeded(deed, around);
             } else if next.is_none_or(|next| next.call != action.call || next.expected != action.expected) {
                 let reason = in_words(action, expected, verdict, before, after);
                 let failed = Failed {
@@ -51,6 +52,9 @@ impl Experience {
                 self.failed(failed);
             } else {
                 continue;
+            }
+            if tries > 1 {
+                self.retries.note(verdict == Verdict::AsExpected);
             }
             tries = 0;
         }

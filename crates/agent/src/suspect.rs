@@ -9,6 +9,8 @@ use serde::{Deserialize, Serialize};
 use typelift_model::{ActionModel, GroundAtom, Literal, Symbol, Term};
 use typelift_plan::{Exclusion, TypeExclusion};
 
+use crate::around::{ConditionAround, with_surroundings};
+
 /// What may be to blame for a failure, and is avoided therefore.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -20,9 +22,16 @@ pub enum Suspect {
     Types(TypeExclusion),
     /// Something that must hold, or must not: a precondition is missing.
     Condition(Condition),
+    /// The same of something that the call does not name.
+    Around(ConditionAround),
 }
 
 impl Suspect {
+    /// Whether it speaks of what holds, which may be otherwise the next time.
+    pub(crate) fn is_conditional(&self) -> bool {
+        matches!(self, Self::Condition(_) | Self::Around(_))
+    }
+
     /// Whether it is about a thing, which only one instance of the world has.
     pub fn belongs_to_instance(&self) -> bool {
         matches!(self, Self::Object(_))
@@ -35,6 +44,7 @@ impl fmt::Display for Suspect {
             Self::Object(exclusion) => exclusion.fmt(f),
             Self::Types(exclusion) => exclusion.fmt(f),
             Self::Condition(condition) => condition.fmt(f),
+            Self::Around(condition) => condition.fmt(f),
         }
     }
 }
@@ -63,8 +73,27 @@ impl fmt::Display for Condition {
     }
 }
 
+/// What keeps actions from being used.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Conditions {
+    /// Over the objects of a call.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub named: Vec<Condition>,
+    /// Over something that a call does not name.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub around: Vec<ConditionAround>,
+}
+
+impl Conditions {
+    /// The model with them.
+    pub(crate) fn in_model<'a>(&self, model: &'a ActionModel) -> Cow<'a, ActionModel> {
+        with_surroundings(with_conditions(model, &self.named), &self.around)
+    }
+}
+
 /// The model with conditions written into the preconditions of the actions that they are about.
-pub(crate) fn with_conditions<'a>(model: &'a ActionModel, conditions: &[Condition]) -> Cow<'a, ActionModel> {
+fn with_conditions<'a>(model: &'a ActionModel, conditions: &[Condition]) -> Cow<'a, ActionModel> {
     if conditions.is_empty() {
         return Cow::Borrowed(model);
     }

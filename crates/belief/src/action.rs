@@ -4,11 +4,14 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use typelift_model::{ActionModel, ActionSchema, Hierarchy, LiftedAtom, Observations, TypeId};
 
-use crate::cause::Cause;
+use crate::around::Around;
+use crate::cause::{Cause, Pair};
 use crate::deed::Tried;
 use crate::object::OutOfOrder;
-use crate::outcome::{Outcome, outcomes, tried, worked_at};
-use crate::suspicion::{absence_odds, literal_odds, pair_odds, pairs};
+use crate::outcome::{Outcome, failed, of_parameters, outcomes, tried, worked_at};
+use crate::run::Run;
+use crate::surroundings::Surrounding;
+use crate::suspicion::{absence_odds, literal_odds, pair_odds, pairs, pairs_worked};
 use crate::types::{Seen, TypeBelief};
 use crate::{CHANCE, MOST_ALIKE, odds};
 
@@ -37,7 +40,11 @@ pub struct ActionBelief {
     worked_below: Vec<Option<TypeId>>,
     top: TypeId,
     types: Vec<TypeBelief>,
+    /// What was observed of it and tried of it.
     outcomes: Vec<Outcome>,
+    /// How often each pair of types worked.
+    pairs: BTreeMap<Pair, u64>,
+    around: Around,
     blamed: BTreeMap<Cause, f64>,
     /// How much each failure speaks for what may have caused it, and how often it was seen.
     clauses: Vec<(BTreeMap<Cause, f64>, u64)>,
@@ -48,12 +55,12 @@ pub struct ActionBelief {
 }
 
 impl ActionBelief {
-    /// What observations say of a learned action, and what was tried of it besides. In time of the failures, times the types
-    /// of the hierarchy.
-    pub fn new(schema: &ActionSchema, observed: &Observations, run: &[Tried<'_>], model: &ActionModel) -> Self {
+    /// What observations say of a learned action, and what was tried of it besides. In time of the kinds of what was tried, and of
+    /// the failures times the types of the hierarchy.
+    pub fn new(schema: &ActionSchema, observed: &Observations, run: &Run<'_>, model: &ActionModel) -> Self {
         let hierarchy = &model.hierarchy;
         let mut outcomes = outcomes(schema, observed, hierarchy);
-        outcomes.extend(run.iter().filter_map(|one| tried(schema, one, hierarchy, run)));
+        outcomes.extend(tried(schema, run, hierarchy));
         let mut belief = Self {
             has_failed: outcomes.iter().any(|outcome| !outcome.worked),
             acts: schema.parameters.iter().map(|parameter| model.is_actor(parameter.ty)).collect(),
@@ -66,6 +73,8 @@ impl ActionBelief {
             absent: absence_odds(&outcomes, model),
             blamed: BTreeMap::new(),
             clauses: Vec::new(),
+            pairs: pairs_worked(&outcomes),
+            around: around(schema, &outcomes, run),
             outcomes,
         };
         belief.believe_types(hierarchy);
@@ -153,7 +162,8 @@ impl ActionBelief {
             let paired =
                 pairs(types).into_iter().filter(|((one, _), (other, _))| !self.acts[*one] && !self.acts[*other]);
             for pair in paired {
-                let (before, cause) = (pair_odds(&pair, &self.outcomes), Cause::Together(pair));
+                let worked = self.pairs.get(&pair).copied().unwrap_or_default();
+                let (before, cause) = (pair_odds(worked), Cause::Together(pair));
                 causes.push((cause.clone(), odds(before + blamed(&cause))));
             }
         }
@@ -202,10 +212,10 @@ impl ActionBelief {
         &self,
         schema: &ActionSchema,
         failure: &Tried<'_>,
-        run: &[Tried<'_>],
+        run: &Run<'_>,
         hierarchy: &Hierarchy,
     ) -> Vec<(Cause, f64)> {
-        let Some(failure) = tried(schema, failure, hierarchy, run) else { return Vec::new() };
+        let Some(failure) = failed(schema, failure, hierarchy, run) else { return Vec::new() };
         let mut causes = self.causes_of(hierarchy, &failure, &BTreeMap::new());
         for (cause, odds) in &mut causes {
             if let Some(object) = failure.objects.get(cause) {
@@ -250,7 +260,21 @@ impl ActionBelief {
         for (cause, OutOfOrder { then: before, .. }) in &failure.objects {
             causes.push((cause.clone(), odds(before + self.blamed_by_others(cause, own))));
         }
+        causes.extend(failure.around.iter().flat_map(|held| self.causes_around(held, own)));
         causes
+    }
+
+    /// What may have caused a failure around which these held, without the blame that is its `own`.
+    pub(crate) fn causes_around<'s>(
+        &'s self,
+        held: &'s BTreeSet<Surrounding>,
+        own: &'s BTreeMap<Cause, f64>,
+    ) -> impl Iterator<Item = (Cause, f64)> {
+        self.around.suspects(held).map(move |(surrounding, held, before)| {
+            let cause = Cause::Around(surrounding.clone(), held);
+            let now = odds(before + self.blamed_by_others(&cause, own));
+            (cause, now)
+        })
     }
 
     /// The objects of each failure, with the odds that they are out of order now.
@@ -298,6 +322,17 @@ impl ActionBelief {
     pub(crate) fn missing_in(&self, outcome: &Outcome) -> Vec<LiftedAtom> {
         let missing = |atom: &&LiftedAtom| outcome.tells_of(atom) && !outcome.held.contains(*atom);
         self.literals.keys().filter(missing).cloned().collect()
+    }
+}
+
+/// What held around where an action worked and failed; nothing as long as it did not fail.
+fn around(schema: &ActionSchema, outcomes: &[Outcome], run: &Run<'_>) -> Around {
+    let failures = || outcomes.iter().filter_map(|outcome| outcome.around.as_ref());
+    let alike = run.failed().iter().find(|failure| of_parameters(schema, failure.deed));
+    if failures().next().is_none() {
+        Around::default()
+    } else {
+        Around::new(alike.and_then(|one| run.around(one.deed)), failures())
     }
 }
 

@@ -3,6 +3,8 @@
 use serde::{Deserialize, Serialize};
 use typelift_model::{LiftedAtom, Symbol, TypeId};
 
+use crate::surroundings::Surrounding;
+
 /// Two parameters and the types there.
 pub type Pair = ((usize, TypeId), (usize, TypeId));
 
@@ -44,6 +46,8 @@ pub enum Cause {
     Missing(LiftedAtom),
     /// A literal that held, and must not.
     Present(LiftedAtom),
+    /// Something around who took part that held, and must not, or that did not hold.
+    Around(Surrounding, bool),
     /// Nothing that is known.
     Chance,
 }
@@ -55,7 +59,7 @@ impl Cause {
             Self::Object { .. } => Culprit::Object,
             Self::Type(..) => Culprit::Type,
             Self::Together(_) => Culprit::Pair,
-            Self::Missing(_) | Self::Present(_) => Culprit::Literal,
+            Self::Missing(_) | Self::Present(_) | Self::Around(..) => Culprit::Literal,
             Self::Chance => Culprit::Chance,
         }
     }

@@ -5,6 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde::{Deserialize, Serialize};
 use typelift_model::{ActionSchema, GroundCall, Hierarchy, LiftedAtom, State, Step, Symbol, Term};
 
+use crate::surroundings::Surrounding;
+
 /// An object that took part in an action.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -131,4 +133,6 @@ pub struct Tried<'d> {
     pub actors: &'d BTreeSet<Symbol>,
     /// Who the goal spoke of: rarely out of order.
     pub in_goal: &'d BTreeSet<Symbol>,
+    /// What held around it, where it failed.
+    pub around: &'d BTreeSet<Surrounding>,
 }

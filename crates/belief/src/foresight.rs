@@ -7,37 +7,32 @@ use typelift_model::{ActionSchema, Hierarchy};
 
 use crate::action::ActionBelief;
 use crate::cause::Cause;
-use crate::deed::{Deed, Tried};
-use crate::outcome::tried;
+use crate::deed::Deed;
+use crate::outcome::{around, of_deed};
+use crate::surroundings::Surrounding;
 
 impl ActionBelief {
-    /// How likely a deed works that is about to be done, from 0 to 1; none if it is another action's. An object counts if
-    /// something failed with it in that instance, and the less the longer ago that was. In time of what was tried.
+    /// How likely a deed works that is about to be done, from 0 to 1; none if it is another action's. `held_around` is
+    /// what holds around it. An object counts if
+    /// something failed with it in that instance, and the less the longer ago that was.
     pub fn foretold(
         &self,
         schema: &ActionSchema,
         next: &Deed,
-        run: &[Tried<'_>],
+        held_around: &BTreeSet<Surrounding>,
         hierarchy: &Hierarchy,
     ) -> Option<f64> {
-        let nobody = BTreeSet::new();
-        let next = Tried {
-            deed: next,
-            worked: true,
-            count: 1,
-            when: u64::MAX,
-            tasks_ago: 0,
-            actors: &nobody,
-            in_goal: &nobody,
-        };
-        let outcome = tried(schema, &next, hierarchy, run)?;
+        let outcome = of_deed(schema, next, 1, true, hierarchy)?;
         let mut causes = self.against(
             hierarchy,
             &outcome.types,
             self.missing_in(&outcome),
             outcome.held.iter().filter(|atom| self.is_absent(atom)).cloned(),
         );
-        causes.extend(self.objects_suspected(next.deed));
+        causes.extend(self.objects_suspected(next));
+        if let Some(held) = around(schema, next, held_around) {
+            causes.extend(self.causes_around(&held, &BTreeMap::new()));
+        }
         Some(self.works(&causes))
     }
 

@@ -7,6 +7,7 @@ use typelift_model::{
 
 use crate::action::ActionBelief;
 use crate::cause::{Cause, Culprit};
+use crate::run::Run;
 use crate::unmet::unmet;
 
 /// A call whose fate is asked.
@@ -57,7 +58,7 @@ impl<'m> Belief<'m> {
     /// What a model's evidence says of its actions.
     pub fn of(learned: &'m LearnedModel) -> Self {
         let (model, observed) = (&learned.model, learned.evidence.total());
-        let actions = model.actions.iter().map(|schema| ActionBelief::new(schema, &observed, &[], model));
+        let actions = model.actions.iter().map(|schema| ActionBelief::new(schema, &observed, &Run::default(), model));
         Self { model, actions: actions.collect() }
     }
 
@@ -109,6 +110,13 @@ impl<'m> Belief<'m> {
             Cause::Missing(atom) => in_call(atom),
             Cause::Present(atom) => format!("not {}", in_call(atom)),
             Cause::Object { object, .. } => object.to_string(),
+            Cause::Around(surrounding, held) => {
+                let name = |at: u32| {
+                    bound[at as usize]
+                        .map_or_else(|| format!("#{}", at + 1), |argument| call.args[argument].to_string())
+                };
+                format!("{}{}", if *held { "not " } else { "" }, surrounding.in_words(name))
+            }
             Cause::Chance => String::new(),
         };
         Suspect { kind: cause.culprit(), what, share }

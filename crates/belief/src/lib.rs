@@ -15,8 +15,11 @@
 //! | `types` | which types a place accepts |
 //! | `cause` | what can be to blame |
 //! | `deed` | what was tried in a run, by which objects |
+//! | `run` | all that was tried, with what was alike counted once |
 //! | `outcome` | what was observed of an action: what worked, and what did not |
 //! | `suspicion` | literals and pairs of types, with the odds that they matter |
+//! | `surroundings` | what held around who took part, of what else there is |
+//! | `around` | how often it did, and which of it may be to blame |
 //! | `object` | objects, with the odds that they are out of order |
 //! | `action` | all of it for one action: sharing the blame |
 //! | `judgement` | what is read off for a call |
@@ -25,20 +28,26 @@
 #![deny(missing_docs)]
 
 mod action;
+mod around;
 mod cause;
 mod deed;
 mod foresight;
 mod judgement;
 mod object;
 mod outcome;
+mod run;
+mod surroundings;
 mod suspicion;
 mod types;
 mod unmet;
 
 pub use action::ActionBelief;
+pub use around::Surroundings;
 pub use cause::{Cause, Culprit, Pair};
 pub use deed::{Deed, Participant, Tried};
 pub use judgement::{Belief, Judgement, Question, Suspect};
+pub use run::Run;
+pub use surroundings::{Link, Surrounding};
 
 /// How often something happens that nothing explains.
 pub const CHANCE: f64 = 0.02;

@@ -5,6 +5,7 @@ use typelift_model::Symbol;
 
 use crate::CHANCE;
 use crate::deed::{Deed, Tried};
+use crate::run::{Run, Use};
 
 /// The odds that an object is out of order; one that the goal speaks of; how much less where it worked before or since.
 const BROKEN: f64 = 0.1;
@@ -28,24 +29,16 @@ pub(crate) struct OutOfOrder {
     pub(crate) worked: u64,
 }
 
-/// How an object of a failure is suspected. In time of what was tried.
-pub(crate) fn out_of_order(failure: &Tried<'_>, object: &Symbol, all: &[Tried<'_>]) -> OutOfOrder {
+/// How an object of a failure is suspected. In time of what was tried with it.
+pub(crate) fn out_of_order(failure: &Tried<'_>, object: &Symbol, run: &Run<'_>) -> OutOfOrder {
     let prior = if failure.in_goal.contains(object) { BROKEN_IN_GOAL } else { BROKEN };
-    let place = |deed: &Deed| {
-        deed.participants.iter().find(|participant| participant.object == *object).map(|participant| participant.place)
-    };
-    let at = place(failure.deed);
     let is_other = |deed: &Deed| {
         let as_many = deed.participants.len() == failure.deed.participants.len();
         !(as_many && deed.adds == failure.deed.adds)
     };
-    let same_call = all.iter().filter(|tried| {
-        let same = tried.deed.call == failure.deed.call && tried.deed.instance == failure.deed.instance;
-        same && at.is_some() && place(tried.deed) == at
-    });
     // When it had worked last before, and when it worked next; and when another action failed.
     let (mut before, mut after, mut others) = (0, u64::MAX, Vec::new());
-    for Tried { deed, worked, when, .. } in same_call {
+    for Use { deed, worked, when } in run.uses(failure.deed, object) {
         match (worked, *when < failure.when) {
             (true, true) => before = before.max(*when),
             (true, false) => after = after.min(*when),
@@ -70,6 +63,7 @@ mod tests {
     use std::collections::BTreeSet;
 
     use super::*;
+    use crate::around::Surroundings;
     use crate::deed::Participant;
 
     /// `cut(knife_1, ITEM)`.
@@ -90,7 +84,7 @@ mod tests {
 
     #[test]
     fn what_failed_before_it_worked_is_another_matter() {
-        let nobody = BTreeSet::new();
+        let (nobody, nothing, none) = (BTreeSet::new(), BTreeSet::new(), Surroundings::default());
         let deeds = ["nut_1", "leek_1", "nut_2", "nut_3"].map(|item| cutting(item, "cut"));
         let sliced = cutting("nut_4", "sliced");
         let tried = |deed, when, worked| Tried {
@@ -101,11 +95,12 @@ mod tests {
             tasks_ago: 0,
             actors: &nobody,
             in_goal: &nobody,
+            around: &nothing,
         };
         let [nut, leek, second, third] = &deeds;
         let all = [tried(nut, 2, false), tried(leek, 3, true), tried(second, 4, false), tried(third, 5, false)];
         let knife = "knife_1".into();
-        let of = |at: usize, all: &[Tried<'_>]| out_of_order(&all[at], &knife, all);
+        let of = |at: usize, all: &[Tried<'_>]| out_of_order(&all[at], &knife, &Run::new(all, &none));
         assert_eq!([0, 2, 3].map(|at| of(at, &all).worked), [0, 3, 3]);
         assert!(of(0, &all).since < 0.0, "it worked since");
         assert_eq!(of(2, &all).since, 0.0);

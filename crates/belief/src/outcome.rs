@@ -8,8 +8,10 @@ use typelift_model::{
 };
 
 use crate::cause::Cause;
-use crate::deed::Tried;
+use crate::deed::{Deed, Tried};
 use crate::object::{OutOfOrder, out_of_order};
+use crate::run::Run;
+use crate::surroundings::Surrounding;
 
 /// Observations that were alike.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,6 +24,8 @@ pub(crate) struct Outcome {
     pub(crate) worked: bool,
     /// The objects that may have been out of order; none where objects are not known.
     pub(crate) objects: BTreeMap<Cause, OutOfOrder>,
+    /// What held around it, over the action's parameters; none where that is not known.
+    pub(crate) around: Option<BTreeSet<Surrounding>>,
 }
 
 impl Outcome {
@@ -83,37 +87,67 @@ fn by_provenance(schema: &ActionSchema, support: &Support, hierarchy: &Hierarchy
         count: support.observations,
         worked: true,
         objects: BTreeMap::new(),
+        around: None,
     }
 }
 
-/// What was tried of an action in a run, as an outcome of it; none if it was another's, or by another call.
-pub(crate) fn tried(
+/// What was tried of an action in a run, as outcomes of it.
+pub(crate) fn tried(schema: &ActionSchema, run: &Run<'_>, hierarchy: &Hierarchy) -> impl Iterator<Item = Outcome> {
+    let worked = run.worked().filter_map(move |(deed, count)| of_deed(schema, deed, count, true, hierarchy));
+    worked.chain(run.failed().iter().filter_map(move |failure| failed(schema, failure, hierarchy, run)))
+}
+
+/// A failure as an outcome of an action; none if it was another's, or by another call.
+pub(crate) fn failed(
     schema: &ActionSchema,
-    tried: &Tried<'_>,
+    failure: &Tried<'_>,
     hierarchy: &Hierarchy,
-    all: &[Tried<'_>],
+    run: &Run<'_>,
 ) -> Option<Outcome> {
-    let deed = tried.deed;
+    let outcome = of_deed(schema, failure.deed, failure.count, false, hierarchy)?;
+    let objects = failure.deed.participants.iter().map(|participant| &participant.object);
+    let others = objects.filter(|object| !failure.actors.contains(*object));
+    let suspected = others.map(|object| {
+        let suspected = out_of_order(failure, object, run);
+        let instance = failure.deed.instance.clone();
+        (Cause::Object { instance, object: object.clone(), worked: suspected.worked }, suspected)
+    });
+    Some(Outcome { objects: suspected.collect(), around: around(schema, failure.deed, failure.around), ..outcome })
+}
+
+/// What held around a deed, if its participants are numbered as the action's parameters.
+pub(crate) fn around(
+    schema: &ActionSchema,
+    deed: &Deed,
+    held: &BTreeSet<Surrounding>,
+) -> Option<BTreeSet<Surrounding>> {
+    of_parameters(schema, deed).then(|| held.clone())
+}
+
+/// Whether it was to do what this action does, and its participants are numbered as the action's parameters.
+pub(crate) fn of_parameters(schema: &ActionSchema, deed: &Deed) -> bool {
+    let same = (0..).map(Some);
+    deed.parameters(schema).is_some_and(|map| same.zip(&map).all(|(same, parameter)| same == *parameter))
+}
+
+/// A deed as an outcome of an action; none if it was another's, or by another call.
+pub(crate) fn of_deed(
+    schema: &ActionSchema,
+    deed: &Deed,
+    count: u64,
+    worked: bool,
+    hierarchy: &Hierarchy,
+) -> Option<Outcome> {
     let map = deed.parameters(schema)?;
     let types: Vec<Symbol> = deed.participants.iter().map(|participant| participant.ty.clone()).collect();
     Some(Outcome {
         types: types_of(&types, &map, schema, hierarchy),
         held: deed.held.iter().filter_map(|atom| mapped(atom, &map)).collect(),
-        count: tried.count,
-        worked: tried.worked,
-        objects: if tried.worked { BTreeMap::new() } else { object_odds(tried, all) },
+        count,
+        worked,
+        objects: BTreeMap::new(),
+        around: None,
     })
-}
-
-fn object_odds(failure: &Tried<'_>, all: &[Tried<'_>]) -> BTreeMap<Cause, OutOfOrder> {
-    let objects = failure.deed.participants.iter().map(|participant| &participant.object);
-    let others = objects.filter(|object| !failure.actors.contains(*object));
-    let suspected = others.map(|object| {
-        let suspected = out_of_order(failure, object, all);
-        let instance = failure.deed.instance.clone();
-        (Cause::Object { instance, object: object.clone(), worked: suspected.worked }, suspected)
-    });
-    suspected.collect()
 }
 
 fn types_of(
@@ -177,7 +211,7 @@ fn add(
     let types = types_of(names, map, schema, hierarchy);
     let mut one = |state: &BTreeSet<LiftedAtom>, count: u64| {
         let held = state.iter().filter_map(|atom| mapped(atom, map)).collect();
-        outcomes.push(Outcome { types: types.clone(), held, count, worked, objects: BTreeMap::new() });
+        outcomes.push(Outcome { types: types.clone(), held, count, worked, objects: BTreeMap::new(), around: None });
     };
     match &cluster.states {
         PreStates::Exact(states) => states.iter().for_each(|(state, count)| one(state, *count)),

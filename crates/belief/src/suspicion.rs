@@ -70,12 +70,18 @@ pub(crate) fn pairs(types: &[Option<TypeId>]) -> Vec<Pair> {
     pairs
 }
 
-/// The logarithmic odds that a pair does not go together: small, and next to nothing once it worked.
-pub(crate) fn pair_odds(pair: &Pair, outcomes: &[Outcome]) -> f64 {
-    let has = |outcome: &&Outcome| {
-        let at = |(at, ty): (usize, TypeId)| outcome.types.get(at).copied().flatten() == Some(ty);
-        outcome.worked && at(pair.0) && at(pair.1)
-    };
-    let worked: u64 = outcomes.iter().filter(has).map(|outcome| outcome.count).sum();
+/// How often each pair of types worked.
+pub(crate) fn pairs_worked(outcomes: &[Outcome]) -> BTreeMap<Pair, u64> {
+    let mut worked = BTreeMap::new();
+    for outcome in outcomes.iter().filter(|outcome| outcome.worked) {
+        for pair in pairs(&outcome.types) {
+            *worked.entry(pair).or_default() += outcome.count;
+        }
+    }
+    worked
+}
+
+/// The logarithmic odds that a pair does not go together which worked so often: small, and next to nothing once it did.
+pub(crate) fn pair_odds(worked: u64) -> f64 {
     PAIR.ln() + worked as f64 * CHANCE.ln()
 }

@@ -144,19 +144,19 @@ pub(crate) fn flickering<'a>(
     })
 }
 
-/// Whether some call changed nothing else, and mostly of its own arguments: then this is what the call does.
+/// Whether some call changed nothing else, and that of its own arguments and in the same way more than once: then this is what
+/// the call does.
 fn is_all_of_a_call<'a>(observations: &'a Observations, is_of: impl Fn(&'a Symbol) -> bool) -> bool {
-    // Of each call whether it changed anything else, how often these atoms were all about its arguments, and how often not.
-    let mut seen: BTreeMap<&Symbol, (bool, u64, u64)> = BTreeMap::new();
+    // Of each call whether it changed anything else, and whether it was seen twice to change its arguments so.
+    let mut seen: BTreeMap<&Symbol, (bool, bool)> = BTreeMap::new();
     for (key, cluster) in &observations.clusters {
-        let (changes_more, of_arguments, of_others) = seen.entry(&key.action).or_default();
+        let (changes_more, is_repeated) = seen.entry(&key.action).or_default();
         let speaks_of_it = |atom: &LiftedAtom| atom.params().any(|parameter| key.call.contains(&parameter));
         let mut atoms = key.adds.iter().chain(&key.deletes);
         *changes_more |= atoms.clone().any(|atom| !is_of(&atom.predicate));
-        let of_these = if atoms.all(speaks_of_it) { of_arguments } else { of_others };
-        *of_these += cluster.count;
+        *is_repeated |= cluster.count > 1 && atoms.all(speaks_of_it);
     }
-    seen.into_values().any(|(changes_more, of_arguments, of_others)| !changes_more && of_arguments > of_others)
+    seen.into_values().any(|(changes_more, is_repeated)| is_repeated && !changes_more)
 }
 
 /// The calls of which transitions were seen, and none that changed anything.

@@ -91,7 +91,7 @@ pub(crate) struct Run {
     #[arg(long, value_name = "R", default_value_t = Options::default().risk, allow_negative_numbers = true,
         value_parser = clap::value_parser!(u32).range(0..=1000))]
     risk: u32,
-    /// Try a failed step again N times [default: 1, with --restart 0]
+    /// Try a failed step again N times [default: 1, until that was five times in vain; with --restart 0]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     retries: Option<u32>,
     /// Propose at most this many plans a task

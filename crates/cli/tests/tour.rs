@@ -150,6 +150,11 @@ fn pddl() {
 }
 
 #[test]
+fn a_week_in_the_kitchen() {
+    tour("docs/a-week-in-the-kitchen.md");
+}
+
+#[test]
 fn the_document_on_memory() {
     tour("docs/memory.md");
 }

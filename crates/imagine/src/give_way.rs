@@ -1,17 +1,17 @@
 //! What was learned of a call goes before what was imagined of it.
 //!
-//! A call has one outcome. Where a learned action can be used that has the same call, to the last object, and predicts something
-//! else, its prediction rests on what was seen, and the imagined one is contradicted before it is tried: whoever walks with a
-//! bear in hand takes the bear along, and no pawn that stands by.
+//! A call has one outcome. Where the very action that another one was imagined from can be used with the same call, to the last
+//! object, and predicts something else, its prediction rests on what was seen, and the imagined one is contradicted before it is
+//! tried: whoever walks with a bear in hand takes the bear along, and no pawn that stands by.
 //!
-//! That goes for what the call does not name, and so cannot ask for. Of what it names, the learned action may have been
-//! generalized as far as the imagined one was raised, and neither is nearer to what was seen.
+//! That goes for what the call does not name, and so cannot ask for. Nor does any other learned action contradict: it may have
+//! been generalized further than the imagined one was raised, and then is no nearer to what was seen.
 //!
 //! A learned action predicts only changes here, however it may be used otherwise: where some of its effects hold already, it
 //! was never seen.
 //!
-//! That is found out where a plan has such a step. Then the action gives way in every state: a derived predicate says of
-//! which calls something was learned, and the action needs that it does not hold. So a task in which no plan has such a step is
+//! That is found out where a plan has such a step. Then the action gives way in every state: a derived predicate says with
+//! which calls the learned one can be used, and the other needs that it does not hold. So a task in which no plan has such a step is
 //! planned as if nothing of this were there.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -22,27 +22,24 @@ use typelift_model::{
 };
 use typelift_plan::{Ban, Restrictions};
 
-/// The imagined actions of a plan that a learned one contradicts where they are used. What may not be used contradicts nothing:
-/// something spoke against it. In time of replaying the plan, and of joining the preconditions of each learned action that has
-/// the call of an imagined step.
+/// The imagined actions of a plan that the learned ones which they were imagined from contradict where they are used. What may
+/// not be used contradicts nothing: something spoke against it. In time of replaying the plan, and of joining the preconditions
+/// of such a learned action for each imagined step.
 pub fn contradicted(plan: &Plan, model: &ActionModel, task: &Task, restrictions: &Restrictions) -> BTreeSet<Symbol> {
     let mut found = BTreeSet::new();
     if plan.steps.iter().all(|step| step.imagined.is_none()) {
         return found;
     }
     let strict = strict(model);
-    let learned: Vec<&ActionSchema> = strict.actions.iter().filter(|schema| is_learned(schema)).collect();
     let mut state = model.with_derived(&task.init);
     for step in &plan.steps {
         let Some(schema) = model.action(step.action.as_str()) else { break };
         let Ok(action) = schema.instantiate(&step.objects, &state, &model.hierarchy) else { break };
-        if has_unnamed(step, schema, task, &model.hierarchy) {
-            let instances = learned.iter().flat_map(|schema| {
-                let instances = schema.instances(&action.call, &state, &model.hierarchy).into_iter();
-                instances.filter(|instance| may_be_used(instance, schema, restrictions, model, task))
-            });
-            let mut agree = instances
-                .map(|instance| (instance.adds, instance.deletes) == (action.adds.clone(), action.deletes.clone()));
+        let from = schema.provenance.imagined().and_then(|(from, ..)| strict.action(from.as_str()));
+        if let Some(from) = from.filter(|_| has_unnamed(step, schema, task, &model.hierarchy)) {
+            let instances = from.instances(&action.call, &state, &model.hierarchy).into_iter();
+            let usable = instances.filter(|instance| may_be_used(instance, from, restrictions, model, task));
+            let mut agree = usable.map(|instance| instance.adds == action.adds && instance.deletes == action.deletes);
             if agree.next().is_some_and(|first| !first && !agree.any(|other| other)) {
                 found.insert(step.action.clone());
             }
@@ -66,10 +63,6 @@ fn has_unnamed(step: &Step, schema: &ActionSchema, task: &Task, hierarchy: &Hier
     })
 }
 
-fn is_learned(schema: &ActionSchema) -> bool {
-    schema.provenance.imagined().is_none()
-}
-
 fn may_be_used(
     action: &GroundAction,
     schema: &ActionSchema,
@@ -84,14 +77,14 @@ fn may_be_used(
         && !restrictions.banned.contains(&Ban::of(action))
 }
 
-/// Adds to the imagined actions of these names that nothing was learned of their call, and answers when something was.
+/// Adds to the imagined actions of these names that what they were imagined from cannot be used with their call, and answers
+/// when it can.
 pub(crate) fn give_way(actions: &mut [ActionSchema], model: &ActionModel, names: &BTreeSet<Symbol>) -> Vec<Axiom> {
     let giving_way = actions.iter_mut().filter(|action| names.contains(&action.name));
-    let mut predicates: BTreeMap<(Symbol, usize), Symbol> = BTreeMap::new();
+    let mut predicates: BTreeMap<Symbol, Symbol> = BTreeMap::new();
     for action in giving_way {
-        let call = (action.call.name.clone(), action.call.args.len());
-        let predicate =
-            predicates.entry(call).or_insert_with_key(|(name, _)| unused(&format!("learned-{name}"), model));
+        let Some((from, ..)) = action.provenance.imagined() else { continue };
+        let predicate = predicates.entry(from.clone()).or_insert_with(|| unused(&format!("usable-{from}"), model));
         let atom = LiftedAtom { predicate: predicate.clone(), args: action.call.args.clone() };
         action.preconditions.push(Literal::negative(atom));
         action.preconditions.sort_unstable();
@@ -99,19 +92,18 @@ pub(crate) fn give_way(actions: &mut [ActionSchema], model: &ActionModel, names:
     }
     let stratum = model.axioms.iter().map(|axiom| axiom.stratum + 1).max().unwrap_or(0);
     let strict = strict(model);
-    let learned = strict.actions.iter().filter_map(|schema| {
-        let predicate = predicates.get(&(schema.call.name.clone(), schema.call.args.len()))?;
+    let usable = strict.actions.iter().filter_map(|schema| {
         let differ = |&(one, other): &(u32, u32)| {
             Literal::negative(LiftedAtom::new(EQUALS, vec![Term::Param(one), Term::Param(other)]))
         };
         Some(Axiom {
             stratum,
-            head: LiftedAtom { predicate: predicate.clone(), args: schema.call.args.clone() },
+            head: LiftedAtom { predicate: predicates.get(&schema.name)?.clone(), args: schema.call.args.clone() },
             parameters: schema.parameters.clone(),
             body: schema.preconditions.iter().cloned().chain(schema.distinct.iter().map(differ)).collect(),
         })
     });
-    learned.collect()
+    usable.collect()
 }
 
 /// A predicate that the model does not have.

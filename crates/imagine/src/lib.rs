@@ -14,8 +14,9 @@
 //! The paper speaks of goals that are to hold. A goal that something is to hold no longer (`not p(a)`) is imagined for in the same
 //! way, with what deletes in place of what adds; that goes beyond the paper, and changes nothing where all goals are positive.
 //!
-//! What was learned of a call goes before what was imagined of it, where both can be used (`give_way.rs`), which the paper leaves
-//! open. Where all that leads to no plan either, preconditions that always held may be done without, one or two (`loosen.rs`).
+//! Where an action and one that was imagined from it can both be used with the same call, the learned one goes before
+//! (`give_way.rs`), which the paper leaves open. Where all that leads to no plan either, preconditions that always held may be
+//! done without, one or two (`loosen.rs`).
 //! That goes beyond the paper.
 //!
 //! Imagined actions rest on no observation of their own. They only ever widen what may be planned: the model's own
@@ -65,8 +66,8 @@ pub struct Imagination {
     pub given_up: Vec<GivenUp>,
     /// The preconditions that some of the new actions do without.
     pub loosened: Vec<Loosening>,
-    /// When something was learned of a call to which new actions give way.
-    pub learned: Vec<Axiom>,
+    /// With which calls those actions of the model can be used to which new ones give way.
+    pub usable: Vec<Axiom>,
 }
 
 impl Imagination {
@@ -76,9 +77,9 @@ impl Imagination {
         model.actions.extend(self.actions.iter().cloned());
         model.actions.sort_by(|a, b| a.name.cmp(&b.name));
         let of_anything = |head: &LiftedAtom| vec![model.hierarchy.root(); head.arity()];
-        let heads = self.learned.iter().map(|axiom| &axiom.head);
+        let heads = self.usable.iter().map(|axiom| &axiom.head);
         model.predicates.extend(heads.map(|head| (head.predicate.clone(), of_anything(head))));
-        model.axioms.extend(self.learned.iter().cloned());
+        model.axioms.extend(self.usable.iter().cloned());
         model
     }
 
@@ -89,9 +90,9 @@ impl Imagination {
         self.loosened.extend_from_slice(loosenings);
     }
 
-    /// Has the new actions of these names used only where none of the model would change what it says that has the same call.
+    /// Has the new actions of these names used only where those that they were imagined from cannot be used with the same call.
     pub fn give_way(&mut self, model: &ActionModel, names: &BTreeSet<Symbol>) {
-        self.learned = give_way::give_way(&mut self.actions, model, names);
+        self.usable = give_way::give_way(&mut self.actions, model, names);
     }
 }
 

@@ -178,7 +178,7 @@ fn what_is_impossible_is_refused() {
     assert_eq!(error.hint.as_deref(), Some("Did you mean `a`?"));
     let hint = |of: &str| {
         let made = missing.replace("\"A\"", of);
-        let state = STATE.replace("\"a\"", "\"block_1\"");
+        let state = STATE.replace("\"a\"", "\"block_1\"").replace("free(a)", "free(block_1)");
         read(&[HEADER, &state, &made.replace("\"a\"", "\"block_1\""), &state]).expect_err("no such entity").hint
     };
     let (numbered, unlike) = (hint("\"block_2\"").expect("a hint"), hint("\"pyramid\"").expect("a hint"));

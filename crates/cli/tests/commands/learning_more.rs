@@ -257,7 +257,7 @@ fn only_what_changes_by_itself_is_advised_to_be_ignored() {
     );
     folder.write(
         "pump.jsonl",
-        pressing(false, &[("A", "Low"), ("B", "Low"), ("C", "Low"), ("D", "Low"), ("E", "Low"), ("A", "Low")]),
+        pressing(false, &[("A", "Low"), ("B", "Low"), ("C", "Low"), ("D", "Low"), ("A", "Low"), ("B", "Low")]),
     );
     let ended = folder.run("learn fan.jsonl --types t.json --dry-run");
     ended.succeeds();

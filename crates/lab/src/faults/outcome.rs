@@ -83,7 +83,7 @@ pub(super) fn repeated(first: &Attempt, later: &Attempt, told: &[GroundCall]) ->
                 call.args.contains(object) && from.as_ref().is_none_or(|name| *name == call.name)
             }
             // What is said of types says nothing of names.
-            Suspect::Types(_) | Suspect::Condition(_) => false,
+            Suspect::Types(_) | Suspect::Condition(_) | Suspect::Around(_) => false,
         })
     };
     let used = told.iter().filter(|call| !later.account.resorts.lifted() && excluded(call));
