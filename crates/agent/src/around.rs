@@ -34,12 +34,6 @@ impl fmt::Display for ConditionAround {
 }
 
 impl ConditionAround {
-    /// Whether it is about an action.
-    fn is_about(&self, schema: &ActionSchema) -> bool {
-        let adds = |predicate: &Symbol| schema.adds().any(|atom| atom.predicate == *predicate);
-        self.call == schema.call.name && self.adds.iter().all(adds)
-    }
-
     /// The derived atom, over its participants in their order, with the axiom that it follows by; none if the hierarchy does
     /// not know its type.
     fn axiom(&self, model: &ActionModel) -> Option<Axiom> {
@@ -69,6 +63,12 @@ impl ConditionAround {
     }
 }
 
+/// Whether an action has a call of this name, and adds atoms of all these predicates.
+pub(crate) fn is_about(schema: &ActionSchema, call: &Symbol, adds: &BTreeSet<Symbol>) -> bool {
+    let is_added = |predicate: &Symbol| schema.adds().any(|atom| atom.predicate == *predicate);
+    *call == schema.call.name && adds.iter().all(is_added)
+}
+
 /// The model with conditions on what is around written into the preconditions of the actions that they are about.
 pub(crate) fn with_surroundings<'a>(
     mut model: Cow<'a, ActionModel>,
@@ -78,7 +78,7 @@ pub(crate) fn with_surroundings<'a>(
         let Some(axiom) = condition.axiom(&model) else { continue };
         let places: Vec<usize> = condition.args.values().map(|(place, _)| *place).collect();
         let model = model.to_mut();
-        for schema in model.actions.iter_mut().filter(|schema| condition.is_about(schema)) {
+        for schema in model.actions.iter_mut().filter(|schema| is_about(schema, &condition.call, &condition.adds)) {
             let args = places.iter().map(|place| schema.call.args.get(*place).cloned()).collect::<Option<Vec<Term>>>();
             let Some(args) = args else { continue };
             let atom = LiftedAtom { predicate: axiom.head.predicate.clone(), args };

@@ -59,14 +59,6 @@ impl Proposal {
         }
     }
 
-    fn planner_mut(&mut self) -> Option<&mut Planner> {
-        match &mut self.searched {
-            Searched::Own(planner) => Some(planner),
-            Searched::Weighed(weighed) => Some(&mut weighed.planner),
-            Searched::External(_) => None,
-        }
-    }
-
     /// The counts of grounding and search; nothing if an external planner planned.
     pub fn report(&self) -> Report {
         let report = self.planner().map(Planner::report).unwrap_or_default();
@@ -99,13 +91,11 @@ impl Proposal {
     /// # Errors
     /// [`ProposeError::Invalid`] if the planner's plan is not one.
     pub fn next_plan(&mut self, budget: &Budget) -> Result<Outcome, ProposeError> {
-        loop {
-            let outcome = self.planner_mut().map_or(Outcome::NoMorePlans, |planner| planner.next_plan(budget));
-            let outcome = self.checked(outcome)?;
-            if self.contradicted(&outcome).is_empty() {
-                return Ok(outcome);
-            }
-        }
+        self.uncontradicted(|searched| match searched {
+            Searched::Own(planner) => planner.next_plan(budget),
+            Searched::Weighed(weighed) => weighed.planner.next_plan(budget),
+            Searched::External(_) => Outcome::NoMorePlans,
+        })
     }
 
     /// A plan cheaper than `cost`, checked. Where risks are costs, none is.
@@ -113,11 +103,16 @@ impl Proposal {
     /// # Errors
     /// [`ProposeError::Invalid`] if the planner's plan is not one.
     pub fn better_plan(&mut self, cost: u64, budget: &Budget) -> Result<Outcome, ProposeError> {
+        self.uncontradicted(|searched| match searched {
+            Searched::Own(planner) => planner.better_plan(cost, budget),
+            Searched::Weighed(_) | Searched::External(_) => Outcome::NoMorePlans,
+        })
+    }
+
+    /// The first outcome, checked, that is no plan in which what was learned contradicts what was imagined.
+    fn uncontradicted(&mut self, mut next: impl FnMut(&mut Searched) -> Outcome) -> Result<Outcome, ProposeError> {
         loop {
-            let outcome = match &mut self.searched {
-                Searched::Own(planner) => planner.better_plan(cost, budget),
-                Searched::Weighed(_) | Searched::External(_) => Outcome::NoMorePlans,
-            };
+            let outcome = next(&mut self.searched);
             let outcome = self.checked(outcome)?;
             if self.contradicted(&outcome).is_empty() {
                 return Ok(outcome);

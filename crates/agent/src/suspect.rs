@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use typelift_model::{ActionModel, GroundAtom, Literal, Symbol, Term};
 use typelift_plan::{Exclusion, TypeExclusion};
 
-use crate::around::{ConditionAround, with_surroundings};
+use crate::around::{ConditionAround, is_about, with_surroundings};
 
 /// What may be to blame for a failure, and is avoided therefore.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -100,8 +100,7 @@ fn with_conditions<'a>(model: &'a ActionModel, conditions: &[Condition]) -> Cow<
     let mut model = model.clone();
     for schema in &mut model.actions {
         for condition in conditions {
-            let adds = |predicate: &Symbol| schema.adds().any(|atom| atom.predicate == *predicate);
-            if condition.call != schema.call.name || !condition.adds.iter().all(adds) {
+            if !is_about(schema, &condition.call, &condition.adds) {
                 continue;
             }
             let term = |object: &Symbol| {

@@ -33,15 +33,13 @@ pub(crate) struct Tally {
 impl Surroundings {
     /// Notes what held around a deed that worked.
     pub fn note(&mut self, deed: &Deed, held: BTreeSet<Surrounding>) {
-        let tally = match self.0.iter().position(|tally| tally.is_of(deed)) {
-            Some(at) => &mut self.0[at],
-            None => {
-                let places = deed.participants.iter().map(|participant| participant.place).collect();
-                let (call, adds) = (deed.call.clone(), deed.adds.clone());
-                self.0.push(Tally { call, adds, places, total: 0, held: Vec::new() });
-                self.0.last_mut().expect("it was pushed")
-            }
-        };
+        let at = self.0.iter().position(|tally| tally.is_of(deed)).unwrap_or_else(|| {
+            let places = deed.participants.iter().map(|participant| participant.place).collect();
+            let (call, adds) = (deed.call.clone(), deed.adds.clone());
+            self.0.push(Tally { call, adds, places, total: 0, held: Vec::new() });
+            self.0.len() - 1
+        });
+        let tally = &mut self.0[at];
         tally.total += 1;
         for surrounding in held {
             match tally.held.binary_search_by(|(known, _)| known.cmp(&surrounding)) {
